@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The image that is being rendered.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/texture.h"
+#include "core/bounds.h"
+#include "core/registry.h"
+#include "core/rgb.h"
+
+namespace lampyris {
+
+/// Name, value pairs written into image files that can hold them.
+using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
+
+class Film {
+ public:
+  virtual ~Film() = default;
+  virtual Int2 resolution() const = 0;      ///< of the whole image
+  virtual PixelBounds bounds() const = 0;   ///< the pixels that are rendered (crop window)
+  virtual const Filter& filter() const = 0;
+  virtual const std::string& filename() const = 0;
+
+  /// Adds a sample with the weight of its filter sample. A pixel's samples come from one thread, in
+  /// the order of their indices. Returns false, and adds black, if the radiance is not finite or
+  /// negative.
+  virtual bool addSample(const Int2& pixel, const Rgb& radiance, float weight) = 0;
+  virtual uint64_t sampleCount(const Int2& pixel) const = 0;
+  /// Mean so far, scaled, negative values clipped.
+  virtual Rgb pixel(const Int2& pixel) const = 0;
+  /// Estimated relative error of the image: the standard error of the pixels' means, as root mean
+  /// square over the image, in relation to the image's mean.
+  virtual double noise() const = 0;
+
+  /// Writes the image to `path` (EXR, PNG, PFM … by its ending): to a temporary file beside it that
+  /// then takes its name, so that a full disk never destroys an older image. Throws IoError.
+  virtual void write(const std::string& path, const ImageMetadata& metadata) const = 0;
+  /// The sums of all pixels as bytes, and back. restore() returns false if they are not of a film
+  /// with the same bounds.
+  virtual std::string save() const = 0;
+  virtual bool restore(const std::string& bytes) = 0;
+};
+
+struct FilmContext : BuildContext {
+  std::unique_ptr<Filter>& filter;  ///< taken over
+};
+
+using FilmRegistry = Registry<Film, FilmContext>;
+
+}  // namespace lampyris

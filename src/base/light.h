@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Lights.
+#pragma once
+
+#include <optional>
+
+#include "base/interaction.h"
+#include "base/shape.h"
+#include "core/bounds.h"
+#include "core/registry.h"
+#include "core/rgb.h"
+
+namespace lampyris {
+
+/// Dense number of a light that can be chosen: a light object has one, or a range of them (the
+/// triangles of an emitter).
+using LightId = uint32_t;
+inline constexpr LightId kNoLight = ~LightId{0};
+
+/// Light arriving at a point, drawn from one light.
+struct LightSample {
+  Rgb radiance;        ///< unoccluded; delta lights: the irradiance on a plane facing it
+  Vec3 wi{0};          ///< unit, towards the light
+  float distance = kInfinity;
+  float pdf = 0;       ///< by solid angle; 1 for delta lights
+  Vec3 p{0}, pError{0}, n{0};  ///< where it comes from, if finite; n = 0: no surface there
+};
+
+/// What a light tree knows of a light with a position. Angles as in Conty and Kulla 2018: normals
+/// lie within θo of the axis, emission within θe of a normal.
+struct LightBounds {
+  Bounds3 box;
+  Vec3 axis{0, 0, 1};
+  float cosThetaO = -1;
+  float cosThetaE = 0;
+  bool twoSided = false;
+  /// Luminance of the largest radiant intensity in any direction (W/sr): a point light's I, a spot's
+  /// I, L × area for an emitter. Equal for a point light and a small sphere that looks the same
+  /// from afar.
+  float intensity = 0;
+};
+
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  /// How many LightIds it takes: its elements.
+  virtual uint32_t elementCount() const { return 1; }
+  /// True if no ray can hit it: point, spot, distant.
+  virtual bool isDelta() const = 0;
+  /// True if it has no position: distant, infinite.
+  virtual bool isInfinite() const { return false; }
+  /// Called once with the scene's bounds before anything else (infinite and distant lights).
+  virtual void prepare(const Bounds3& scene) { (void)scene; }
+
+  /// Draws incident light at `from`. None if nothing arrives.
+  virtual std::optional<LightSample> sample(uint32_t element, const Vec3& from,
+                                            const Vec2& u) const = 0;
+  /// Density by solid angle with which sample(element, from, ·) draws the point `hit` of this
+  /// emitter. 0 for delta and infinite lights.
+  virtual float pdfHit(uint32_t element, const Vec3& from, const SurfaceInteraction& hit) const {
+    (void)element, (void)from, (void)hit;
+    return 0;
+  }
+  /// The same for a direction in which a ray leaves the scene. 0 unless infinite and not delta.
+  virtual float pdfEscape(const Vec3& wi) const { return (void)wi, 0.f; }
+  /// Radiance emitted by the surface point `at` towards `w`. Black for others than area lights.
+  virtual Rgb emitted(const SurfaceInteraction& at, const Vec3& w) const {
+    return (void)at, (void)w, Rgb();
+  }
+  /// Radiance along a ray that leaves the scene in direction `d`.
+  virtual Rgb escaped(const Vec3& d) const { return (void)d, Rgb(); }
+
+  /// Emitted power in watts; exact for constant emission, else an estimate; black only if nothing is
+  /// ever emitted.
+  virtual Rgb power(uint32_t element) const = 0;
+  /// None for infinite lights.
+  virtual std::optional<LightBounds> bounds(uint32_t element) const = 0;
+  /// For infinite lights: luminance of the irradiance on a surface with normal `n` (both sides where
+  /// `transmits`), an estimate that is > 0 wherever light may arrive. 0 for others.
+  virtual float irradianceEstimate(const Vec3& n, bool transmits) const {
+    return (void)n, (void)transmits, 0.f;
+  }
+  /// The scene file's wish for samples a point in direct lighting ("samples", "nsamples").
+  virtual int samples() const { return 1; }
+};
+
+struct LightContext : BuildContext {
+  Transform lightToWorld;
+  ImageCache& images;
+};
+/// Area lights know their shape.
+struct AreaLightContext : BuildContext {
+  const Shape& shape;
+  ImageCache& images;
+};
+
+using LightRegistry = Registry<Light, LightContext>;
+using AreaLightRegistry = Registry<Light, AreaLightContext>;
+
+/// Every light with dense ids: light `object(id)`, element `id − firstId(object)`.
+class LightTable {
+ public:
+  struct Entry {
+    const Light* light;
+    uint32_t element;
+  };
+  /// Adds a light and returns its first id.
+  LightId add(const Light* light);
+  uint32_t size() const { return static_cast<uint32_t>(owner_.size()); }
+  Entry operator[](LightId id) const {
+    const Object& o = objects_[owner_[id]];
+    return {o.light, id - o.firstId};
+  }
+  size_t objectCount() const { return objects_.size(); }
+  const Light& object(size_t i) const { return *objects_[i].light; }
+  LightId firstId(size_t object) const { return objects_[object].firstId; }
+
+ private:
+  struct Object {
+    const Light* light;
+    LightId firstId;
+  };
+  std::vector<Object> objects_;
+  std::vector<uint32_t> owner_;  ///< index in objects_, per id
+};
+
+}  // namespace lampyris

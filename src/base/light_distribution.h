@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Light distributions: which light to sample next at a point.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/bsdf.h"
+#include "base/light.h"
+
+namespace lampyris {
+
+/// A point that wants light. Built once per vertex and used both to sample and to weigh.
+struct LightSampleContext {
+  Vec3 p{0}, pError{0};
+  Vec3 n{0, 0, 1};    ///< geometric normal
+  Vec3 ns{0, 0, 1};   ///< shading normal
+  Vec3 wo{0, 0, 1};
+  /// Whether light can arrive from the side of wo (as the geometric normal sees it), and from the
+  /// other one.
+  bool reflects = true, transmits = true;
+  const Bsdf* bsdf = nullptr;  ///< null where there is no surface
+
+  LightSampleContext() = default;
+  LightSampleContext(const SurfaceInteraction& at, const Bsdf& bsdf);
+};
+
+struct SampledLight {
+  LightId light = kNoLight;
+  float pmf = 0;  ///< exact probability of the draw, or the expected count in a cut
+};
+using SampledLights = std::vector<SampledLight>;
+
+/// Contract, tested for every registered distribution: sample() reports pmf(light); the pmf sum to
+/// 1, or to 0 where no light can contribute; drawn frequencies match; every light that contributes
+/// has pmf > 0. Thread-safe.
+class LightDistribution {
+ public:
+  virtual ~LightDistribution() = default;
+  /// One light; none where no light can contribute. `u` in [0, 1).
+  virtual std::optional<SampledLight> sample(const LightSampleContext& ctx, float u) const = 0;
+  virtual float pmf(const LightSampleContext& ctx, LightId light) const = 0;
+  /// Appends one light for each cluster of the cut; by default sample()'s.
+  virtual void sampleCut(const LightSampleContext& ctx, float u, SampledLights& out) const;
+  /// How often sampleCut() draws the light on average; by default pmf().
+  virtual float expectedCount(const LightSampleContext& ctx, LightId light) const {
+    return pmf(ctx, light);
+  }
+};
+
+class Statistics;
+
+struct LightDistributionContext : BuildContext {
+  const LightTable& lights;
+  Bounds3 sceneBounds;
+  Statistics& statistics;
+};
+
+using LightDistributionRegistry = Registry<LightDistribution, LightDistributionContext>;
+
+}  // namespace lampyris

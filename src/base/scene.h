@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A scene ready to be rendered.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/geometry.h"
+
+namespace lampyris {
+
+/// Owns everything that rays can meet. Immutable while rendering.
+struct Scene {
+  std::vector<std::unique_ptr<FloatTexture>> floatTextures;
+  std::vector<std::unique_ptr<SpectrumTexture>> spectrumTextures;
+  std::vector<std::unique_ptr<Material>> materials;
+  std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<std::unique_ptr<Light>> lights;
+  std::unique_ptr<Geometry> geometry;
+
+  LightTable lightTable;                       ///< the lights that can be chosen
+  std::vector<const Light*> infiniteLights;    ///< those that a ray can escape to
+  std::vector<LightId> infiniteLightIds;       ///< their ids, kNoLight if not sampled
+  Bounds3 bounds;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/shape.h"
+
+namespace lampyris {
+
+std::optional<ShapeSample> Shape::sampleSolidAngle(uint32_t element, const Vec3& from,
+                                                   const Vec2& u) const {
+  auto s = sampleArea(element, u);
+  if (!s) return s;
+  s->pdf = pdfSolidAngle(element, from, s->p, s->n);
+  if (!(s->pdf > 0) || !std::isfinite(s->pdf)) return std::nullopt;
+  return s;
+}
+
+float Shape::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
+                           const Vec3& n) const {
+  const Vec3 d = p - from;
+  const float distance2 = lengthSquared(d);
+  const float cosine = absDot(n, d) / std::sqrt(distance2);
+  return safeDivide(distance2, cosine * area(element));
+}
+
+}  // namespace lampyris

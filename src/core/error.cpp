@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace lampyris {
+
+std::string formatMessage(const SourceFiles& files, SourceLocation where, std::string_view severity,
+                          std::string_view message) {
+  const auto at = files.position(where);
+  if (at.line == 0) return fmt::format("{}: {}", severity, message);
+  std::string text =
+      fmt::format("{}:{}:{}: {}: {}", at.file, at.line, at.column, severity, message);
+  constexpr size_t kWidth = 100;
+  // A long line is shown from shortly before the place.
+  const size_t column = static_cast<size_t>(at.column - 1);
+  const size_t from = column > kWidth - 20 ? column - 40 : 0;
+  std::string line(at.lineText.substr(from, kWidth));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text + fmt::format("\n  {}\n  {:>{}}", line, '^', column - from + 1);
+}
+
+namespace {
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substitute = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row.back();
+}
+}  // namespace
+
+std::string nearest(std::string_view name, std::span<const std::string> candidates) {
+  std::string best;
+  size_t bestDistance = std::max<size_t>(name.size() / 3, 1) + 1;
+  for (const std::string& c : candidates) {
+    const size_t d = editDistance(name, c);
+    if (d < bestDistance && d < c.size()) bestDistance = d, best = c;
+  }
+  return best;
+}
+
+std::string didYouMean(std::string_view name, std::span<const std::string> candidates) {
+  const std::string best = nearest(name, candidates);
+  return best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best);
+}
+
+void Diagnostics::warn(SourceLocation where, const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  if (warned_.insert(message).second) sink_(formatMessage(files_, where, "warning", message));
+}
+
+}  // namespace lampyris

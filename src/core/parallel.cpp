@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/parallel.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include <algorithm>
+
+namespace lampyris {
+
+namespace tbb = oneapi::tbb;
+
+struct ThreadLimit::Impl {
+  explicit Impl(size_t n) : control(tbb::global_control::max_allowed_parallelism, n) {}
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : impl_(std::make_unique<Impl>(static_cast<size_t>(
+          threads > 0 ? threads : tbb::info::default_concurrency()))) {}
+ThreadLimit::~ThreadLimit() = default;
+
+int threadCount() {
+  const auto allowed = static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return std::max(allowed, 1);
+}
+
+void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, std::max<size_t>(grain, 1)),
+                    [&body](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
+}
+
+void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
+  tbb::parallel_invoke(a, b);
+}
+
+}  // namespace lampyris

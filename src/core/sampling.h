@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Warps of uniform variates in [0, 1) to directions and points, with their densities, and
+/// tabulated distributions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "core/vector.h"
+
+namespace lampyris {
+
+/// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
+Vec2 sampleConcentricDisk(const Vec2& u);
+/// A direction of the upper hemisphere with pdf cos θ / π.
+Vec3 sampleCosineHemisphere(const Vec2& u);
+inline float cosineHemispherePdf(float cosTheta) { return cosTheta * kInvPi; }
+/// A direction with pdf 1 / 4π.
+Vec3 sampleUniformSphere(const Vec2& u);
+/// A direction within the cone about +z whose half-angle has 1 − cos = `oneMinusCosMax`
+/// (precise for tiny cones), with pdf uniformConePdf(oneMinusCosMax).
+Vec3 sampleUniformCone(const Vec2& u, float oneMinusCosMax);
+inline float uniformConePdf(float oneMinusCosMax) { return 1 / (2 * kPi * oneMinusCosMax); }
+/// Barycentric coordinates (b0, b1) of a uniform point of a triangle; b2 = 1 − b0 − b1.
+/// Keeps strata compact (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+Vec2 sampleUniformTriangle(const Vec2& u);
+
+/// The balance heuristic's weight of the first technique; 0 where both densities are 0.
+inline float balanceHeuristic(float pdf, float otherPdf) {
+  return std::isinf(pdf) ? 1.f : safeDivide(pdf, pdf + otherPdf);
+}
+/// The power heuristic (β = 2).
+inline float powerHeuristic(float pdf, float otherPdf) {
+  if (std::isinf(pdf)) return 1;
+  const float r = otherPdf / pdf;
+  return pdf > 0 ? 1 / (1 + r * r) : 0;
+}
+
+/// A piecewise-constant density over [0, 1) with equal cells. Values < 0 or not finite count as 0;
+/// if all are 0 the density is uniform.
+class Distribution1D {
+ public:
+  Distribution1D() = default;
+  explicit Distribution1D(std::span<const float> values);
+
+  struct Sample {
+    float x;       ///< in [0, 1)
+    float pdf;     ///< density at x
+    size_t cell;   ///< index of x's cell
+    float remapped;  ///< a fresh uniform variate in [0, 1): where in the cell x lies
+  };
+  size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
+  /// Mean of the values.
+  double integral() const { return integral_; }
+  Sample sample(float u) const;
+  float pdf(float x) const { return density(cellOf(x)); }
+  /// Probability of a cell.
+  float pmf(size_t cell) const { return cdf_[cell + 1] - cdf_[cell]; }
+  float density(size_t cell) const { return pmf(cell) * static_cast<float>(size()); }
+
+ private:
+  size_t cellOf(float x) const {
+    return std::min(static_cast<size_t>(std::max(x, 0.f) * static_cast<float>(size())), size() - 1);
+  }
+  std::vector<float> cdf_;
+  double integral_ = 0;
+};
+
+/// A piecewise-constant density over [0, 1)², row by row (`values[y * width + x]`).
+class Distribution2D {
+ public:
+  Distribution2D() = default;
+  Distribution2D(std::span<const float> values, int width, int height);
+
+  struct Sample {
+    Vec2 p;
+    float pdf;
+  };
+  Sample sample(const Vec2& u) const;
+  float pdf(const Vec2& p) const;
+  double integral() const { return marginal_.integral(); }
+
+ private:
+  std::vector<Distribution1D> rows_;
+  Distribution1D marginal_;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_INTEGRATORS(PLUGIN)
+
+LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

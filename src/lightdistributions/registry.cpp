@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightdistributions/registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_LIGHT_DISTRIBUTIONS(PLUGIN)
+
+LAMPYRIS_REGISTRY(lightDistributionRegistry, "lightsampler", LightDistributionRegistry, LAMPYRIS_LIGHT_DISTRIBUTIONS)

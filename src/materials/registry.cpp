@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "materials/registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_MATERIALS(PLUGIN)
+
+LAMPYRIS_REGISTRY(materialRegistry, "material", MaterialRegistry, LAMPYRIS_MATERIALS)

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shapes/registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_SHAPES(PLUGIN)
+
+LAMPYRIS_REGISTRY(shapeRegistry, "shape", ShapeRegistry, LAMPYRIS_SHAPES)

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "textures/float_registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_FLOAT_TEXTURES(PLUGIN)
+
+LAMPYRIS_REGISTRY(floatTextureRegistry, "float texture", FloatTextureRegistry, LAMPYRIS_FLOAT_TEXTURES)

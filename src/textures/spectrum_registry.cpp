@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "textures/spectrum_registry.h"
+
+// One line a plugin: n stands for the entry function nPlugin().
+#define LAMPYRIS_SPECTRUM_TEXTURES(PLUGIN)
+
+LAMPYRIS_REGISTRY(spectrumTextureRegistry, "spectrum texture", SpectrumTextureRegistry, LAMPYRIS_SPECTRUM_TEXTURES)

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/texture.h"
+
+namespace lampyris {
+
+const SpectrumTextureRegistry& spectrumTextureRegistry();
+
+}  // namespace lampyris

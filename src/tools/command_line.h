@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace lampyris {
+
+/// Runs the program; returns its exit code: 0 done, 1 scene error, 2 usage, 3 input or output.
+int runCommandLine(int argc, char** argv);
+
+}  // namespace lampyris
