@@ -51,7 +51,7 @@ class Lobe {
   virtual float albedo(const Vec3& wo) const = 0;
 
   uint8_t flags;
-  Rgb scale{1};  ///< factor on f, set by materials that mix
+  Rgb scale{1};  ///< factor on f, set by materials that mix; in f(), sample() and albedo() already
 
  protected:
   ~Lobe() = default;

@@ -12,12 +12,17 @@ std::optional<ShapeSample> Shape::sampleSolidAngle(uint32_t element, const Vec3&
   return s;
 }
 
+float Shape::pdfArea(uint32_t element, const Vec3& n) const {
+  (void)n;
+  return safeDivide(1, area(element));
+}
+
 float Shape::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
                            const Vec3& n) const {
   const Vec3 d = p - from;
   const float distance2 = lengthSquared(d);
   const float cosine = absDot(n, d) / std::sqrt(distance2);
-  return safeDivide(distance2, cosine * area(element));
+  return safeDivide(distance2 * pdfArea(element, n), cosine);
 }
 
 }  // namespace lampyris

@@ -54,8 +54,12 @@ class Shape {
 
   /// Area of an element, exact to float precision; 0 for a degenerate one.
   virtual float area(uint32_t element) const = 0;
-  /// A uniform point of the element; pdf by area = 1 / area(element). None if the area is 0.
+  /// A point of the element; pdf by area = pdfArea(element, n). Uniform but for curved shapes under
+  /// non-uniform scaling. None if the area is 0.
   virtual std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const = 0;
+  /// The density by area with which sampleArea() draws a point with normal `n` (either side): 1 /
+  /// area(element) unless the shape says otherwise; 0 if the area is 0.
+  virtual float pdfArea(uint32_t element, const Vec3& n) const;
   /// A point of the element as seen from `from`, pdf by solid angle at `from`. May return points
   /// that face away. The default converts sampleArea(). None if there is nothing to see.
   virtual std::optional<ShapeSample> sampleSolidAngle(uint32_t element, const Vec3& from,

@@ -48,7 +48,9 @@ inline float sphericalTheta(const Vec3& w) { return safeAcos(w.z); }
 /// Azimuth in [0, 2π).
 inline float sphericalPhi(const Vec3& w) {
   const float p = std::atan2(w.y, w.x);
-  return p < 0 ? p + 2 * kPi : p;
+  if (!(p < 0)) return p;
+  const float turned = p + 2 * kPi;
+  return turned < 2 * kPi ? turned : 0.f;  // a tiny negative angle rounds to a full turn
 }
 
 }  // namespace lampyris

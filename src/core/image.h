@@ -2,10 +2,12 @@
 /// Images in memory, and files of them.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <unordered_map>
+#include <typeindex>
 #include <utility>
 #include <vector>
 
@@ -69,9 +71,9 @@ Image readLinearImage(const std::string& path);
 struct ImagePlacement {
   Int2 offset{0}, fullSize{0};
 };
-/// Writes by the path's ending: .exr (half floats as pbrt-v3, 32 bit with `fullFloat`; layers and
-/// metadata), .pfm, .png, .hdr, .tga, .jpg (sRGB-encoded, clamped). Goes to a temporary file beside
-/// it first. Throws IoError.
+/// Writes by the path's ending: .exr (32-bit floats, or half floats as pbrt-v3 if not `fullFloat`;
+/// layers, always 32-bit, and metadata), .pfm, .hdr, and .png, .tga, .bmp, .jpg (8 bit,
+/// sRGB-encoded, clamped). Goes to a temporary file beside it first. Throws IoError.
 struct WriteOptions {
   std::vector<std::pair<std::string, std::string>> metadata{};
   std::vector<ImageLayer> layers{};
@@ -84,15 +86,36 @@ bool isWritableImagePath(const std::string& path);
 
 float srgbToLinear(float v);
 float linearToSrgb(float v);
+/// Makes sRGB-encoded values linear, all channels but alpha (the second of two, the fourth of four).
+void decodeSrgb(Image& image);
 
-/// Each file is read once, when first asked for. Thread-safe.
+/// Each file is read once, when first asked for; what is made of files (texture pyramids) is made
+/// once. Thread-safe.
 class ImageCache {
  public:
+  /// Throws IoError.
   std::shared_ptr<const LoadedImage> get(const std::string& path);
 
+  /// What `make` returned when first called for this type and key. Others who ask for the same wait;
+  /// where `make` throws, nothing is kept. `make` must not ask for the same type and key.
+  template <class T>
+  std::shared_ptr<const T> shared(const std::string& key,
+                                  const std::function<std::shared_ptr<const T>()>& make) {
+    return std::static_pointer_cast<const T>(
+        fill({std::type_index(typeid(T)), key}, [&make] { return make(); }));
+  }
+
  private:
+  using Key = std::pair<std::type_index, std::string>;
+  struct Slot {
+    std::mutex mutex;
+    std::shared_ptr<const void> value;
+  };
+  std::shared_ptr<const void> fill(const Key& key,
+                                   const std::function<std::shared_ptr<const void>()>& make);
+
   std::mutex mutex_;
-  std::unordered_map<std::string, std::shared_ptr<const LoadedImage>> images_;
+  std::map<Key, std::shared_ptr<Slot>> slots_;
 };
 
 }  // namespace lampyris

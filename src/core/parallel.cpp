@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace lampyris {
 
@@ -30,7 +31,9 @@ int threadCount() {
 }
 
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, std::max<size_t>(grain, 1)),
+  // TBB halves what is larger than its grain size: at 2 grain − 1, halves have at least `grain`.
+  const size_t largest = 2 * std::clamp<size_t>(grain, 1, SIZE_MAX / 2) - 1;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, largest),
                     [&body](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
 }
 

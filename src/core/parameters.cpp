@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 
 #include "core/spectrum.h"
 
@@ -37,6 +39,7 @@ bool isColour(ParameterType t) {
 /// True if a parameter of type `t` may be written into the target.
 bool accepts(const ParameterDeclaration& d, ParameterType t) {
   using P = ParameterType;
+  if (d.exactType) return t == *d.exactType;
   switch (d.target) {
     case TargetType::Int:
     case TargetType::IntList: return t == P::Integer;
@@ -47,7 +50,7 @@ bool accepts(const ParameterDeclaration& d, ParameterType t) {
     case TargetType::StringList: return t == P::String;
     case TargetType::Vec2:
     case TargetType::Vec2List:
-      return t == P::Point2 || t == P::Vector2 || (t == P::Float && !d.exactType);
+      return t == P::Point2 || t == P::Vector2 || t == P::Float;
     case TargetType::Vec3:
     case TargetType::Vec3List: return t == P::Point3 || t == P::Vector3 || t == P::Normal;
     case TargetType::Rgb: return isColour(t);
@@ -132,12 +135,16 @@ void readRgbInput(const Parameter& p, RgbInput& out) {
 void readList(const ParameterDeclaration& d, const Parameter& p, void* object) {
   switch (d.target) {
     case TargetType::IntList:
+      for (const int32_t v : p.integers) checkRange(d, p, v);
       member<std::vector<int>>(d, object).assign(p.integers.begin(), p.integers.end());
       return;
     case TargetType::FloatList: {
       auto& out = member<std::vector<float>>(d, object);
       out.resize(numberCount(p));
-      for (size_t i = 0; i < out.size(); ++i) out[i] = floatAt(p, i);
+      for (size_t i = 0; i < out.size(); ++i) {
+        out[i] = floatAt(p, i);
+        checkRange(d, p, static_cast<double>(out[i]));
+      }
       return;
     }
     case TargetType::StringList:
@@ -162,8 +169,18 @@ void readList(const ParameterDeclaration& d, const Parameter& p, void* object) {
   }
 }
 
+/// What no target can make sense of.
+void checkValues(const Parameter& p) {
+  for (const float v : p.floats)
+    if (!std::isfinite(v)) fail(p, fmt::format("{} is not a finite number", v));
+  if (p.type != ParameterType::Bool) return;
+  for (const std::string_view v : p.strings)
+    if (v != "true" && v != "false") fail(p, fmt::format("expected true or false, got \"{}\"", v));
+}
+
 void readOne(const ParameterDeclaration& d, const Parameter& p, void* object) {
   if (!accepts(d, p.type)) fail(p, fmt::format("expected {}, got {}", d.typeText(), typeName(p.type)));
+  checkValues(p);
   switch (d.target) {
     case TargetType::Int:
       expectCount(p, p.integers.size(), 1);
@@ -249,6 +266,12 @@ bool ParameterDeclaration::matches(std::string_view n) const {
   return std::any_of(aliases.begin(), aliases.end(), [n](const std::string& a) { return a == n; });
 }
 
+// Not inline: GCC 12 at -O3 sees an overflow in it that is not there.
+DeclarationHandle& DeclarationHandle::alias(std::string name) {
+  d_.aliases.push_back(std::move(name));
+  return *this;
+}
+
 DeclarationHandle Declaration::push(std::string name, TargetType target, bool optional,
                                     const void* member, std::string defaultText, std::string doc) {
   const std::ptrdiff_t offset = static_cast<const char*>(member) - object_;
@@ -310,6 +333,9 @@ DeclarationHandle Declaration::add(std::string name, std::optional<int>& m, std:
 }
 DeclarationHandle Declaration::add(std::string name, std::optional<float>& m, std::string doc) {
   return push(std::move(name), TargetType::Float, true, &m, "not set", std::move(doc));
+}
+DeclarationHandle Declaration::add(std::string name, std::optional<bool>& m, std::string doc) {
+  return push(std::move(name), TargetType::Bool, true, &m, "not set", std::move(doc));
 }
 DeclarationHandle Declaration::add(std::string name, std::optional<std::string>& m,
                                    std::string doc) {

@@ -105,9 +105,7 @@ class DeclarationHandle {
   DeclarationHandle& oneOf(std::vector<std::string> names) {
     return d_.choices = std::move(names), *this;
   }
-  DeclarationHandle& alias(std::string name) {
-    return d_.aliases.push_back(std::move(name)), *this;
-  }
+  DeclarationHandle& alias(std::string name);
   DeclarationHandle& type(ParameterType t) { return d_.exactType = t, *this; }
   /// Says in words what the default is, where the member's initialiser doesn't.
   DeclarationHandle& defaultIs(std::string text) {
@@ -140,6 +138,7 @@ class Declaration {
   DeclarationHandle add(std::string name, std::vector<Vec3>& m, std::string doc);
   DeclarationHandle add(std::string name, std::optional<int>& m, std::string doc);
   DeclarationHandle add(std::string name, std::optional<float>& m, std::string doc);
+  DeclarationHandle add(std::string name, std::optional<bool>& m, std::string doc);
   DeclarationHandle add(std::string name, std::optional<std::string>& m, std::string doc);
   DeclarationHandle add(std::string name, std::optional<Rgb>& m, std::string doc);
   DeclarationHandle add(std::string name, std::optional<FloatInput>& m, std::string doc);

@@ -28,7 +28,8 @@ Vec2 sampleUniformTriangle(const Vec2& u);
 
 /// The balance heuristic's weight of the first technique; 0 where both densities are 0.
 inline float balanceHeuristic(float pdf, float otherPdf) {
-  return std::isinf(pdf) ? 1.f : safeDivide(pdf, pdf + otherPdf);
+  if (std::isinf(pdf)) return 1;
+  return pdf > 0 ? 1 / (1 + otherPdf / pdf) : 0.f;  // the sum of two large densities may overflow
 }
 /// The power heuristic (β = 2).
 inline float powerHeuristic(float pdf, float otherPdf) {
@@ -53,6 +54,7 @@ class Distribution1D {
   size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
   /// Mean of the values.
   double integral() const { return integral_; }
+  /// sample().pdf == pdf(sample().x), exactly.
   Sample sample(float u) const;
   float pdf(float x) const { return density(cellOf(x)); }
   /// Probability of a cell.

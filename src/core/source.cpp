@@ -16,7 +16,8 @@
 namespace lampyris {
 
 MappedFile::MappedFile(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Without O_NONBLOCK opening a pipe would wait for its writer.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) throw IoError("cannot open \"" + path + "\": " + std::strerror(errno));
   struct stat info {};
   if (::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
@@ -50,16 +51,22 @@ MappedFile::~MappedFile() {
   if (data_) ::munmap(const_cast<char*>(data_), size_);
 }
 
+void SourceFiles::checkCount() const {
+  if (files_.size() >= 0xffff) throw IoError("more than 65535 files are included");
+}
+
 uint16_t SourceFiles::open(const std::string& path) {
-  if (files_.size() >= 0xffff) throw IoError("more than 65534 files are included");
+  checkCount();
+  MappedFile mapping(path);
   File& f = files_.emplace_back();
   f.name = path;
-  f.mapping = MappedFile(path);
+  f.mapping = std::move(mapping);
   f.text = f.mapping.text();
   return static_cast<uint16_t>(files_.size() - 1);
 }
 
 uint16_t SourceFiles::add(std::string name, std::string text) {
+  checkCount();
   File& f = files_.emplace_back();
   f.name = std::move(name);
   f.owned = std::move(text);

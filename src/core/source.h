@@ -44,6 +44,8 @@ class SourceFiles {
   /// Adds a text that is in no file (standard input, a command line, a test).
   uint16_t add(std::string name, std::string text);
 
+  /// Files have the numbers 0 … count() − 1.
+  size_t count() const { return files_.size(); }
   std::string_view text(uint16_t file) const { return files_[file].text; }
   const std::string& name(uint16_t file) const { return files_[file].name; }
 
@@ -61,6 +63,7 @@ class SourceFiles {
     std::string owned;
     std::string_view text;
   };
+  void checkCount() const;
   std::deque<File> files_;
 };
 

@@ -67,7 +67,7 @@ Rgb spectrumToRgb(std::span<const float> pairs) {
 }
 
 Rgb blackbodyRgb(float kelvin) {
-  if (!(kelvin > 0)) return Rgb();
+  if (!(kelvin > 0) || !std::isfinite(kelvin)) return Rgb();
   // Planck's law; its constants drop out of the ratio but for c2 = hc/k, and Wien's displacement.
   constexpr double c2 = 1.4387769e7;  // nm K
   const auto t = static_cast<double>(kelvin);

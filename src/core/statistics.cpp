@@ -11,7 +11,9 @@ Statistics::Entry& Statistics::at(const std::string& section, const std::string&
 
 void Statistics::set(const std::string& section, const std::string& name, double value) {
   const std::lock_guard lock(mutex_);
-  at(section, name).value = value;
+  Entry& e = at(section, name);
+  e.value = value;
+  e.text.clear();
 }
 
 void Statistics::set(const std::string& section, const std::string& name,

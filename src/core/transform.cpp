@@ -12,7 +12,7 @@ Transform::Transform(const glm::mat4& matrix) : matrix_(matrix), inverse_(0) {
   const glm::dmat4 inverse = glm::inverse(glm::dmat4(matrix));
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
-      if (!std::isfinite(inverse[c][r])) return;
+      if (!std::isfinite(static_cast<float>(inverse[c][r]))) return;
   inverse_ = glm::mat4(inverse);
 }
 

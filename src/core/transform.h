@@ -48,8 +48,9 @@ class Transform {
   Vec3 point(const Vec3& p) const;
   /// The same for an affine map.
   Vec3 affinePoint(const Vec3& p) const {
-    return Vec3(matrix_[0]) * p.x + Vec3(matrix_[1]) * p.y + Vec3(matrix_[2]) * p.z +
-           Vec3(matrix_[3]);
+    // In pairs: no term goes through more than three roundings, as pointError() counts.
+    return (Vec3(matrix_[0]) * p.x + Vec3(matrix_[1]) * p.y) +
+           (Vec3(matrix_[2]) * p.z + Vec3(matrix_[3]));
   }
   Vec3 vector(const Vec3& v) const {
     return Vec3(matrix_[0]) * v.x + Vec3(matrix_[1]) * v.y + Vec3(matrix_[2]) * v.z;

@@ -29,7 +29,7 @@ inline bool isFinite(const Vec3& v) {
 /// Scaled by the largest component first, so that neither 1e-30 nor 1e+30 loses its direction.
 inline Vec3 normalize(const Vec3& v) {
   const float scale = std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
-  if (!(scale > 0) || !std::isfinite(scale)) return Vec3(0);
+  if (!(scale > 0) || !isFinite(v)) return Vec3(0);
   const Vec3 w = v / scale;
   return w / length(w);
 }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The readers and writers behind core/image.h, one pair a library. All throw IoError.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/image.h"
+
+namespace lampyris {
+
+/// Readers refuse images of more pixels: a damaged header must not claim all memory.
+inline constexpr int64_t kMaxImagePixels = int64_t{1} << 28;
+
+/// Throws IoError: `cannot read image "path": why`.
+[[noreturn]] void failImageRead(const std::string& path, const std::string& why);
+[[noreturn]] void failImageWrite(const std::string& path, const std::string& why);
+/// Throws IoError unless the size is one that an image can have.
+void checkImageSize(const std::string& path, int64_t width, int64_t height);
+
+/// `bytes` are the file's contents, `path` its name for messages.
+LoadedImage readStbImage(const std::string& path, std::string_view bytes);
+LoadedImage readExrImage(const std::string& path, std::string_view bytes);
+LoadedImage readPfmImage(const std::string& path, std::string_view bytes);
+
+/// `ending` is in lower case, with its dot.
+void writeStbImage(const std::string& path, const std::string& ending, const Image& image);
+void writeExrImage(const std::string& path, const Image& image, const WriteOptions& options);
+void writePfmImage(const std::string& path, const Image& image);
+
+}  // namespace lampyris

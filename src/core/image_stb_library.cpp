@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one place that compiles stb's code. Formats that nobody asks for are left out: each is a
+// parser of untrusted bytes.
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_BMP
+#define STBI_ONLY_HDR
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "base/light.h"
+#include "base/light_distribution.h"
+
+namespace lampyris {
+namespace {
+
+class DarkLight final : public Light {
+ public:
+  explicit DarkLight(uint32_t elements) : elements_(elements) {}
+  uint32_t elementCount() const override { return elements_; }
+  bool isDelta() const override { return true; }
+  std::optional<LightSample> sample(uint32_t, const Vec3&, const Vec2&) const override { return {}; }
+  Rgb power(uint32_t) const override { return Rgb(); }
+  std::optional<LightBounds> bounds(uint32_t) const override { return {}; }
+
+ private:
+  uint32_t elements_;
+};
+
+TEST(LightTable, GivesEachElementAnId) {
+  const DarkLight a(1), mesh(1000), none(0), b(1);
+  LightTable table;
+  EXPECT_EQ(table.add(&a), 0u);
+  EXPECT_EQ(table.add(&mesh), 1u);
+  EXPECT_EQ(table.add(&none), 1001u);
+  EXPECT_EQ(table.add(&b), 1001u);
+  EXPECT_EQ(table.size(), 1002u);
+  EXPECT_EQ(table[0].light, &a);
+  EXPECT_EQ(table[1].light, &mesh);
+  EXPECT_EQ(table[1].element, 0u);
+  EXPECT_EQ(table[1000].light, &mesh);
+  EXPECT_EQ(table[1000].element, 999u);
+  EXPECT_EQ(table[1001].light, &b);
+  EXPECT_EQ(table[1001].element, 0u);
+  EXPECT_EQ(table.objectCount(), 4u);
+  EXPECT_EQ(table.firstId(1), 1u);
+}
+
+class FixedDistribution final : public LightDistribution {
+ public:
+  std::optional<SampledLight> sample(const LightSampleContext&, float) const override {
+    return SampledLight{3, 0.25f};
+  }
+  float pmf(const LightSampleContext&, LightId light) const override {
+    return light == 3 ? 0.25f : 0;
+  }
+};
+
+TEST(LightDistribution, DefaultCutIsOneSample) {
+  const FixedDistribution d;
+  SampledLights cut;
+  d.sampleCut({}, 0.5f, cut);
+  ASSERT_EQ(cut.size(), 1u);
+  EXPECT_EQ(cut[0].light, 3u);
+  EXPECT_EQ(cut[0].pmf, d.expectedCount({}, 3));
+}
+
+}  // namespace
+}  // namespace lampyris
