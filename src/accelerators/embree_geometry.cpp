@@ -1,2 +1,320 @@
 // SPDX-License-Identifier: Apache-2.0
+/// Rays by Embree 3 (Wald et al. 2014, "Embree: A Kernel Framework for Efficient CPU Ray Tracing"),
+/// in its watertight mode: triangles by Embree itself from the shapes' buffers, other shapes by
+/// callbacks, object instances as a second level.
 #include "accelerators/embree_geometry.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <limits>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "accelerators/embree_callbacks.h"
+
+namespace lampyris {
+
+namespace {
+
+/// What Embree said last; its callback and the thread that reads it may differ.
+struct DeviceErrors {
+  std::mutex mutex;
+  std::string message;
+  RTCError code = RTC_ERROR_NONE;
+};
+
+void onDeviceError(void* user, RTCError code, const char* message) {
+  auto& errors = *static_cast<DeviceErrors*>(user);
+  const std::lock_guard lock(errors.mutex);
+  if (errors.code != RTC_ERROR_NONE) return;
+  errors.code = code;
+  errors.message = message ? message : "";
+}
+
+/// One per process, as Embree wants it.
+class Device {
+ public:
+  static Device& instance() {
+    static Device device;
+    return device;
+  }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  operator RTCDevice() const { return device_; }  // NOLINT(google-explicit-constructor)
+  /// Throws what went wrong since the last call.
+  void check() {
+    rtcGetDeviceError(device_);
+    const std::lock_guard lock(errors_.mutex);
+    const RTCError code = std::exchange(errors_.code, RTC_ERROR_NONE);
+    if (code == RTC_ERROR_NONE) return;
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+      throw std::runtime_error(
+          "not enough memory for the ray tracing structure of the scene's geometry");
+    throw std::runtime_error(
+        fmt::format("Embree failed: {} (error {})", errors_.message, static_cast<int>(code)));
+  }
+
+ private:
+  Device() : device_(rtcNewDevice(nullptr)) {
+    if (!device_)
+      throw std::runtime_error(fmt::format("Embree cannot start on this processor (error {})",
+                                           static_cast<int>(rtcGetDeviceError(nullptr))));
+    rtcSetDeviceErrorFunction(device_, onDeviceError, &errors_);
+  }
+  ~Device() { rtcReleaseDevice(device_); }
+
+  DeviceErrors errors_;
+  RTCDevice device_;
+};
+
+struct SceneReleaser {
+  void operator()(RTCScene s) const { rtcReleaseScene(s); }
+};
+struct GeometryReleaser {
+  void operator()(RTCGeometry g) const { rtcReleaseGeometry(g); }
+};
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneReleaser>;
+using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryReleaser>;
+
+SceneHandle newScene() {
+  SceneHandle scene(rtcNewScene(Device::instance()));
+  Device::instance().check();
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+GeometryHandle newGeometry(RTCGeometryType type) {
+  GeometryHandle geometry(rtcNewGeometry(Device::instance(), type));
+  Device::instance().check();
+  return geometry;
+}
+
+void setTriangles(RTCGeometry geometry, const TriangleBuffers& t) {
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, t.positions, 0,
+                             sizeof(Vec3), t.vertexCount);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, t.indices, 0,
+                             3 * sizeof(uint32_t), t.triangleCount);
+}
+
+/// Adds a primitive as geometry `id`; the primitive must stay where it is.
+void attach(RTCScene scene, const Primitive& primitive, unsigned id) {
+  const TriangleBuffers triangles = primitive.shape->triangles();
+  const bool mesh = triangles.triangleCount > 0;
+  const uint32_t elements = primitive.shape->elementCount();
+  if (elements == 0) return;
+  if (!mesh && elements == 1 && primitive.shape->bounds(0).empty()) return;
+  GeometryHandle geometry = newGeometry(mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
+  // Embree hands the pointer back as const data.
+  rtcSetGeometryUserData(geometry.get(), const_cast<Primitive*>(&primitive));
+  if (mesh) {
+    setTriangles(geometry.get(), triangles);
+    // Filters cost on every candidate, so only where there is something to filter.
+    if (primitive.alpha)
+      rtcSetGeometryIntersectFilterFunction(geometry.get(), embree::filterNearest);
+    if (primitive.alpha || primitive.shadowAlpha)
+      rtcSetGeometryOccludedFilterFunction(geometry.get(), embree::filterOccluded);
+  } else {
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), elements);
+    rtcSetGeometryBoundsFunction(geometry.get(), embree::bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), embree::intersect);
+    rtcSetGeometryOccludedFunction(geometry.get(), embree::occluded);
+  }
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene, geometry.get(), id);
+  Device::instance().check();
+}
+
+SceneHandle buildScene(const std::vector<Primitive>& primitives) {
+  SceneHandle scene = newScene();
+  for (size_t i = 0; i < primitives.size(); ++i)
+    attach(scene.get(), primitives[i], static_cast<unsigned>(i));
+  return scene;
+}
+
+void commit(RTCScene scene) {
+  rtcCommitScene(scene);
+  Device::instance().check();
+}
+
+/// Embree takes coordinates below 1.844e18 and may end the process on others.
+constexpr float kEmbreeLimit = 1.8e18f;
+/// Instances that are smaller than one part in this are left out: nobody sees them, and rays in
+/// their space would be beyond Embree's limit.
+constexpr float kMostShrinking = 1e9f;
+
+/// The largest factor by which the map enlarges a component; infinite if it is singular.
+float enlargement(const glm::mat4& m, bool singular) {
+  if (singular) return kInfinity;
+  float most = 0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, maxComponent(glm::abs(Vec3(m[c]))));
+  return 3 * most;
+}
+
+class EmbreeGeometry final : public Geometry {
+ public:
+  explicit EmbreeGeometry(GeometryDescription description);
+
+  std::optional<Hit> intersect(const Ray& ray) const override;
+  bool occluded(const Ray& ray) const override;
+  SurfaceInteraction surface(const Ray& ray, const Hit& hit, SurfaceDetail detail) const override;
+  const Primitive& primitive(const Hit& hit) const override {
+    if (hit.instance == Hit::kNoInstance) return description_.primitives[hit.primitive];
+    return description_.objects[description_.instances[hit.instance].object]
+        .primitives[hit.primitive];
+  }
+  Bounds3 bounds() const override { return bounds_; }
+
+ private:
+  void attachInstances();
+
+  const GeometryDescription description_;
+  std::vector<SceneHandle> objects_;
+  SceneHandle scene_;
+  Bounds3 bounds_;
+  float rayLimit_ =
+      kEmbreeLimit;  ///< of the components of rays, such that instances stay in limits
+};
+
+EmbreeGeometry::EmbreeGeometry(GeometryDescription description)
+    : description_(std::move(description)), scene_(buildScene(description_.primitives)) {
+  attachInstances();
+  commit(scene_.get());
+  RTCBounds b;
+  rtcGetSceneBounds(scene_.get(), &b);
+  if (b.lower_x <= b.upper_x && b.lower_y <= b.upper_y && b.lower_z <= b.upper_z)
+    bounds_ = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+/// Instances take the geometry numbers after the primitives. Definitions without an instance are
+/// not built; a singular map leaves nothing that a ray could meet.
+void EmbreeGeometry::attachInstances() {
+  objects_.resize(description_.objects.size());
+  for (size_t i = 0; i < description_.instances.size(); ++i) {
+    const ObjectInstance& instance = description_.instances[i];
+    const Transform& toWorld = instance.instanceToWorld;
+    const float inverse = enlargement(toWorld.inverseMatrix(), toWorld.isSingular());
+    if (!(inverse <= kMostShrinking)) continue;
+    rayLimit_ = std::min(rayLimit_, kEmbreeLimit / (2 * std::max(1.f, inverse)));
+    const auto& primitives = description_.objects[instance.object].primitives;
+    if (primitives.empty()) continue;
+    SceneHandle& object = objects_[instance.object];
+    if (!object) {
+      object = buildScene(primitives);
+      commit(object.get());
+    }
+    const GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry.get(), object.get());
+    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                            &toWorld.matrix()[0][0]);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene_.get(), geometry.get(),
+                          static_cast<unsigned>(description_.primitives.size() + i));
+    Device::instance().check();
+  }
+}
+
+/// Embree includes both ends of its interval; 0 < t < tMax excludes them. False for rays that can
+/// meet nothing, and for those beyond `limit` or not finite, which Embree must not see.
+bool toEmbree(const Ray& ray, float limit, RTCRay& out) {
+  const Vec3 largest = glm::abs(ray.o) + glm::abs(ray.d);  // a sum keeps NaN, a maximum may not
+  if (!(ray.tMax > 0 && largest.x <= limit && largest.y <= limit && largest.z <= limit))
+    return false;
+  out.org_x = ray.o.x, out.org_y = ray.o.y, out.org_z = ray.o.z;
+  out.dir_x = ray.d.x, out.dir_y = ray.d.y, out.dir_z = ray.d.z;
+  out.tnear = std::numeric_limits<float>::min();
+  out.tfar = std::isinf(ray.tMax) ? ray.tMax : nextFloatDown(ray.tMax);
+  out.time = ray.time;
+  out.mask = ~0u;
+  out.id = out.flags = 0;
+  return true;
+}
+
+std::optional<Hit> EmbreeGeometry::intersect(const Ray& ray) const {
+  RTCRayHit query;
+  if (!toEmbree(ray, rayLimit_, query.ray)) return std::nullopt;
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene_.get(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  Hit hit;
+  hit.shape = {query.ray.tfar, {query.hit.u, query.hit.v}};
+  hit.primitive = query.hit.geomID;
+  hit.element = query.hit.primID;
+  if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID)
+    hit.instance = query.hit.instID[0] - static_cast<uint32_t>(description_.primitives.size());
+  return hit;
+}
+
+bool EmbreeGeometry::occluded(const Ray& ray) const {
+  RTCRay query;
+  if (!toEmbree(ray, rayLimit_, query)) return false;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_.get(), &context, &query);
+  return query.tfar < 0;
+}
+
+/// Derivatives of A n / |A n| by those of n, A n / |A n| given, for A the map of normals.
+Vec3 normalDerivative(const Transform& t, float scale, const Vec3& worldNormal, const Vec3& d) {
+  const Vec3 v = t.normal(d) * scale;
+  return v - dot(worldNormal, v) * worldNormal;
+}
+
+/// From the definition's space to the world.
+void transformSurface(const Transform& t, SurfaceInteraction& at) {
+  const Vec3 local = at.p;
+  at.p = t.affinePoint(local);
+  at.pError = t.pointError(local, at.pError);
+  // Rays come back through the rounded inverse map; what that is off by counts as well.
+  const Transform back = t.inverse();
+  const Vec3 returned = back.pointError(at.p, Vec3(0));
+  for (int c = 0; c < 3; ++c) at.pError += glm::abs(Vec3(t.matrix()[c])) * returned[c];
+
+  const Vec3 n = t.normal(at.n), ns = t.normal(at.shading.n);
+  at.n = normalize(n);
+  at.shading.n = faceForward(normalize(ns), at.n);
+  at.dndu = normalDerivative(t, 1 / length(n), at.n, at.dndu);
+  at.dndv = normalDerivative(t, 1 / length(n), at.n, at.dndv);
+  const float sign = dot(ns, at.shading.n) < 0 ? -1.f : 1.f;
+  at.shading.dndu = normalDerivative(t, sign / length(ns), at.shading.n, at.shading.dndu);
+  at.shading.dndv = normalDerivative(t, sign / length(ns), at.shading.n, at.shading.dndv);
+  at.dpdu = t.vector(at.dpdu);
+  at.dpdv = t.vector(at.dpdv);
+  at.shading.dpdu = t.vector(at.shading.dpdu);
+  at.shading.dpdv = t.vector(at.shading.dpdv);
+}
+
+SurfaceInteraction EmbreeGeometry::surface(const Ray& ray, const Hit& hit,
+                                           SurfaceDetail detail) const {
+  const Primitive& p = primitive(hit);
+  SurfaceInteraction at;
+  if (hit.instance == Hit::kNoInstance) {
+    p.shape->surface(hit.element, hit.shape, ray, detail, at);
+  } else {
+    const Transform& toWorld = description_.instances[hit.instance].instanceToWorld;
+    const Transform toObject = toWorld.inverse();
+    const Ray local{toObject.affinePoint(ray.o), toObject.vector(ray.d), ray.tMax, ray.time};
+    p.shape->surface(hit.element, hit.shape, local, detail, at);
+    transformSurface(toWorld, at);
+  }
+  at.wo = -normalize(ray.d);
+  at.time = ray.time;
+  at.primitive = &p;
+  at.element = hit.element;
+  return at;
+}
+
+}  // namespace
+
+std::unique_ptr<Geometry> makeEmbreeGeometry(GeometryDescription description) {
+  return std::make_unique<EmbreeGeometry>(std::move(description));
+}
+
+}  // namespace lampyris

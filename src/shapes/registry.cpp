@@ -2,6 +2,12 @@
 #include "shapes/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_SHAPES(PLUGIN)
+#define LAMPYRIS_SHAPES(PLUGIN) \
+  PLUGIN(cylinder)              \
+  PLUGIN(disk)                  \
+  PLUGIN(loopsubdiv)            \
+  PLUGIN(plymesh)               \
+  PLUGIN(sphere)                \
+  PLUGIN(trianglemesh)
 
 LAMPYRIS_REGISTRY(shapeRegistry, "shape", ShapeRegistry, LAMPYRIS_SHAPES)

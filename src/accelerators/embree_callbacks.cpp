@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "accelerators/embree_callbacks.h"
+
+#include "base/geometry.h"
+
+namespace lampyris::embree {
+
+namespace {
+
+enum class Query : uint8_t { Nearest, Occlusion };
+
+const Primitive& primitiveOf(const void* user) { return *static_cast<const Primitive*>(user); }
+
+Ray toRay(const RTCRay& r) {
+  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, r.time};
+}
+
+void evaluateSurface(const Primitive& primitive, uint32_t element, const ShapeHit& hit,
+                     const Ray& ray, SurfaceInteraction& at) {
+  primitive.shape->surface(element, hit, ray, SurfaceDetail::Basic, at);
+  at.primitive = &primitive;
+  at.element = element;
+}
+
+bool isHole(const FloatTexture* alpha, const SurfaceInteraction& at) {
+  return alpha && alpha->evaluate(at) == 0;
+}
+
+/// Whether the ray passes this point.
+bool passes(const Primitive& primitive, const SurfaceInteraction& at, Query query) {
+  return isHole(primitive.alpha, at) ||
+         (query == Query::Occlusion && isHole(primitive.shadowAlpha, at));
+}
+
+/// The nearest hit of a shape's element that alpha does not let pass.
+std::optional<ShapeHit> firstHit(const Primitive& primitive, uint32_t element, const RTCRay& r,
+                                 Query query) {
+  // Embree allows t = tfar, Shape does not.
+  Ray ray = toRay(r);
+  ray.tMax = nextFloatUp(ray.tMax);
+  auto hit = primitive.shape->intersect(element, ray);
+  if (!primitive.alpha && (query == Query::Nearest || !primitive.shadowAlpha)) return hit;
+  // A curved shape may be met again behind a hole; few times, so a bound is no loss.
+  float passed = 0;
+  for (int i = 0; hit && i < 64; ++i) {
+    SurfaceInteraction at;
+    evaluateSurface(primitive, element, *hit, ray, at);
+    if (!passes(primitive, at, query)) return ShapeHit{passed + hit->t, hit->uv};
+    passed += hit->t;
+    ray.o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
+    ray.tMax -= hit->t;
+    hit = primitive.shape->intersect(element, ray);
+  }
+  return std::nullopt;
+}
+
+void filter(const RTCFilterFunctionNArguments* args, Query query) {
+  if (!args->valid[0]) return;
+  // With one ray the layouts of RTCRayN and RTCHitN are those of RTCRay and RTCHit.
+  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  const Primitive& primitive = primitiveOf(args->geometryUserPtr);
+  SurfaceInteraction at;
+  evaluateSurface(primitive, hit.primID, {ray.tfar, {hit.u, hit.v}}, toRay(ray), at);
+  if (passes(primitive, at, query)) args->valid[0] = 0;
+}
+
+}  // namespace
+
+void bounds(const RTCBoundsFunctionArguments* args) {
+  const Bounds3 b = primitiveOf(args->geometryUserPtr).shape->bounds(args->primID);
+  // Embree's box test is in single precision, the shapes' intersections are not.
+  const Vec3 pad = 4 * kMachineEpsilon * glm::max(glm::abs(b.min), glm::abs(b.max));
+  RTCBounds& out = *args->bounds_o;
+  out.lower_x = b.min.x - pad.x, out.upper_x = b.max.x + pad.x;
+  out.lower_y = b.min.y - pad.y, out.upper_y = b.max.y + pad.y;
+  out.lower_z = b.min.z - pad.z, out.upper_z = b.max.z + pad.z;
+}
+
+void intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto hit =
+      firstHit(primitiveOf(args->geometryUserPtr), args->primID, query.ray, Query::Nearest);
+  if (!hit) return;
+  query.ray.tfar = hit->t;
+  query.hit.u = hit->uv.x;
+  query.hit.v = hit->uv.y;
+  query.hit.primID = args->primID;
+  query.hit.geomID = args->geomID;
+  query.hit.instID[0] = args->context->instID[0];
+}
+
+void occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  if (firstHit(primitiveOf(args->geometryUserPtr), args->primID, ray, Query::Occlusion))
+    ray.tfar = -kInfinity;
+}
+
+void filterNearest(const RTCFilterFunctionNArguments* args) { filter(args, Query::Nearest); }
+void filterOccluded(const RTCFilterFunctionNArguments* args) { filter(args, Query::Occlusion); }
+
+}  // namespace lampyris::embree

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What sphere, disk and cylinder share: a parametric surface in object space under an affine map.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+
+#include "base/shape.h"
+
+namespace lampyris {
+
+using DVec2 = glm::dvec2;
+using DVec3 = glm::dvec3;
+
+/// Object space is computed in double precision, so that rounding to float is the only error of a
+/// hit point and neither far-away rays nor large coordinates lose it (pbrt-v3 bounds the error of
+/// single precision instead).
+///
+/// Deviations from pbrt-v3, where its own sampling and intersection disagree: normals of mirrored
+/// shapes are those that its sampling has (outward unless ReverseOrientation), partial shapes are
+/// sampled where they are, and areas are true areas under any transformation.
+class Quadric : public Shape {
+ public:
+  Bounds3 bounds(uint32_t element) const final;
+  void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
+               SurfaceInteraction& out) const final;
+  float area(uint32_t element) const final { return (void)element, area_; }
+  /// Uniform in object space, so by pdfArea() in world space.
+  std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const final;
+  float pdfArea(uint32_t element, const Vec3& n) const final;
+
+ protected:
+  /// A point of the surface in object space: `n` is unit, along cross(dpdu, dpdv).
+  struct Point {
+    DVec3 p{0}, n{0, 0, 1}, dpdu{0}, dpdv{0}, dpduu{0}, dpduv{0}, dpdvv{0};
+  };
+  struct ObjectRay {
+    DVec3 o, d;
+    double tMax;
+  };
+
+  /// Throws SceneError if the transformation is singular or projective. `name` for messages.
+  Quadric(const ShapeContext& context, const char* name);
+  /// What is known of the shape when its parameters are set; `area` 0: nothing is there.
+  struct Extent {
+    double area = 0;
+    DVec3 min{0}, max{0};     ///< a box around it,
+    double axisRadius = 0;    ///< its largest distance from the z axis
+    double originRadius = 0;  ///< and from the origin, all in object space
+  };
+  void finish(const Extent& extent);
+
+  virtual Point evaluate(DVec2 uv) const = 0;
+  /// Parameters of a point that is uniform by area in object space.
+  virtual DVec2 sampleParameters(const Vec2& u) const = 0;
+
+  ObjectRay toObject(const Ray& ray) const {
+    return {toObject_ * (DVec3(ray.o) - translation_), toObject_ * DVec3(ray.d),
+            static_cast<double>(ray.tMax)};
+  }
+  DVec3 toWorld(const DVec3& p) const { return matrix_ * p + translation_; }
+  ShapeSample sampleAt(DVec2 uv) const;
+  bool isEmpty() const { return !(objectArea_ > 0); }
+  /// The common scale factor, or 0 if the axes are scaled differently or sheared.
+  double similarity() const { return similarity_; }
+  float orientation() const { return orientation_; }
+  const glm::dmat3& matrix() const { return matrix_; }
+
+  /// Bounds of the rounding error of toWorld(p), once rounded to float.
+  Vec3 worldError(const DVec3& object, const Vec3& world) const;
+
+ private:
+  double meanAreaScale() const;
+  void setBounds(const Extent& extent);
+  double areaScale(const DVec3& objectNormal) const;
+  Vec3 worldNormal(const DVec3& objectNormal) const;
+
+  glm::dmat3 matrix_{1}, toObject_{1};
+  DVec3 translation_{0};
+  double determinant_ = 1, similarity_ = 0, objectArea_ = 0;
+  float area_ = 0, orientation_ = 1;
+  Bounds3 bounds_;
+};
+
+/// An angle of a scene file in degrees, clamped to [0, 360], in radians.
+double sweepAngle(float degrees);
+/// The azimuth of (x, y) in [0, 2π).
+double azimuth(double x, double y);
+/// The box of the arc of a circle about the z axis with azimuth in [0, phiMax].
+void arcBounds(double radius, double phiMax, DVec2& min, DVec2& max);
+/// The parameters at which a t² + 2 halfB t + c = 0 in ascending order, given the discriminant
+/// halfB² − a c as precisely as the caller has it; without cancellation.
+struct Roots {
+  int count = 0;
+  double t[2] = {0, 0};
+};
+Roots quadraticRoots(double a, double halfB, double c, double discriminant);
+
+}  // namespace lampyris

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Spheres, full or partial. Full ones are sampled by the cone of directions in which they are seen
+/// (Shirley et al. 1996, "Monte Carlo techniques for direct lighting calculations"), in a form that
+/// stays precise for spheres that look tiny.
+#include <cmath>
+
+#include "core/frame.h"
+#include "core/sampling.h"
+#include "shapes/quadric.h"
+#include "shapes/registry.h"
+
+namespace lampyris {
+
+namespace {
+
+struct SphereParameters {
+  float radius = 1;
+  std::optional<float> zMin, zMax;
+  float phiMax = 360;
+
+  void declare(Declaration& d) {
+    d.add("radius", radius, "Radius.").atLeast(0);
+    d.add("zmin", zMin, "Cut off below this z.").defaultIs("-radius");
+    d.add("zmax", zMax, "Cut off above this z.").defaultIs("radius");
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+  }
+};
+
+class Sphere final : public Quadric {
+ public:
+  Sphere(const SphereParameters& p, const ShapeContext& context);
+
+  std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const override;
+  std::optional<ShapeSample> sampleSolidAngle(uint32_t element, const Vec3& from,
+                                              const Vec2& u) const override;
+  float pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
+                      const Vec3& n) const override;
+  NormalCone normalCone(uint32_t element) const override { return (void)element, NormalCone{}; }
+
+ protected:
+  Point evaluate(DVec2 uv) const override;
+  DVec2 sampleParameters(const Vec2& u) const override {
+    return {u.x, vOf(zMin_ + static_cast<double>(u.y) * (zMax_ - zMin_))};
+  }
+
+ private:
+  /// The polar angle runs from zmin (v = 0) to zmax (v = 1).
+  double vOf(double z) const {
+    return (std::acos(std::clamp(z / radius_, -1., 1.)) - thetaMin_) / (thetaMax_ - thetaMin_);
+  }
+  DVec2 parametersOf(const DVec3& p) const { return {azimuth(p.x, p.y) / phiMax_, vOf(p.z)}; }
+  std::optional<DVec2> accept(const DVec3& p) const;
+  /// 1 − cos of the cone's half-angle as seen from `from`; none where the sphere is not sampled by
+  /// its cone: partial, under a map that makes it no sphere, or from inside.
+  struct Cone {
+    double oneMinusCos, sin2, distance;
+    DVec3 axis;
+  };
+  std::optional<Cone> coneFrom(const Vec3& from) const;
+
+  double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
+  bool full_;
+};
+
+Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
+    : Quadric(context, "sphere"), radius_(p.radius), phiMax_(sweepAngle(p.phiMax)) {
+  const double z0 = p.zMin.value_or(-p.radius), z1 = p.zMax.value_or(p.radius);
+  zMin_ = std::clamp(std::min(z0, z1), -radius_, radius_);
+  zMax_ = std::clamp(std::max(z0, z1), -radius_, radius_);
+  thetaMin_ = radius_ > 0 ? std::acos(std::clamp(zMin_ / radius_, -1., 1.)) : 0;
+  thetaMax_ = radius_ > 0 ? std::acos(std::clamp(zMax_ / radius_, -1., 1.)) : 0;
+  full_ = zMin_ == -radius_ && zMax_ == radius_ && p.phiMax >= 360;
+
+  Extent extent;
+  extent.area = phiMax_ * radius_ * (zMax_ - zMin_);
+  const double nearest = zMin_ <= 0 && zMax_ >= 0 ? 0 : std::min(std::abs(zMin_), std::abs(zMax_));
+  extent.axisRadius = safeSqrt(std::max(0., radius_ * radius_ - nearest * nearest));
+  extent.originRadius = radius_;
+  DVec2 lo, hi;
+  arcBounds(extent.axisRadius, phiMax_, lo, hi);
+  // Circles nearer to the poles are smaller, down to the axis.
+  extent.min = DVec3(glm::min(lo, DVec2(0)), zMin_);
+  extent.max = DVec3(glm::max(hi, DVec2(0)), zMax_);
+  finish(extent);
+}
+
+Quadric::Point Sphere::evaluate(DVec2 uv) const {
+  const double phi = uv.x * phiMax_, range = thetaMax_ - thetaMin_;
+  const double theta = thetaMin_ + uv.y * range;
+  const DVec2 around(std::cos(phi), std::sin(phi));
+  Point at;
+  at.n = DVec3(std::sin(theta) * around, std::cos(theta));
+  at.p = radius_ * at.n;
+  // At the poles dpdu vanishes; a small circle around them stands in for it, as in pbrt-v3.
+  const double s = std::max(std::sin(theta), 1e-5), c = std::cos(theta);
+  const DVec3 turned(-around.y, around.x, 0);
+  at.dpdu = phiMax_ * radius_ * s * turned;
+  at.dpdv = range * radius_ * DVec3(c * around, -s);
+  at.dpduu = -phiMax_ * phiMax_ * radius_ * s * DVec3(around, 0);
+  at.dpduv = range * phiMax_ * radius_ * c * turned;
+  at.dpdvv = -range * range * radius_ * DVec3(s * around, c);
+  return at;
+}
+
+/// The parameters of a point on the whole sphere if the cuts leave it.
+std::optional<DVec2> Sphere::accept(const DVec3& p) const {
+  if (full_) return parametersOf(p);
+  if ((zMin_ > -radius_ && p.z < zMin_) || (zMax_ < radius_ && p.z > zMax_)) return std::nullopt;
+  const DVec2 uv = parametersOf(p);
+  if (uv.x > 1) return std::nullopt;
+  return uv;
+}
+
+std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) const {
+  (void)element;
+  if (isEmpty()) return std::nullopt;
+  const ObjectRay r = toObject(ray);
+  // The discriminant by the distance of the line from the centre: no difference of large squares
+  // for rays from afar (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection").
+  const double a = glm::dot(r.d, r.d), halfB = glm::dot(r.o, r.d);
+  const DVec3 foot = r.o - (halfB / a) * r.d;
+  const double reach = radius_ * radius_ - glm::dot(foot, foot);
+  const double far = glm::length(r.o);
+  const Roots roots = quadraticRoots(a, halfB, (far - radius_) * (far + radius_), a * reach);
+  for (int i = 0; i < roots.count; ++i) {
+    const auto t = static_cast<float>(roots.t[i]);
+    if (!(t > 0 && t < ray.tMax)) continue;
+    const DVec3 p = r.o + roots.t[i] * r.d;
+    if (const auto uv = accept(p * (radius_ / glm::length(p)))) return ShapeHit{t, Vec2(*uv)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
+  if (!full_ || similarity() == 0) return std::nullopt;
+  const double r = radius_ * similarity();
+  const DVec3 toCentre = toWorld(DVec3(0)) - DVec3(from);
+  const double d2 = glm::dot(toCentre, toCentre);
+  if (!(d2 > r * r) || !std::isfinite(d2)) return std::nullopt;
+  const double sin2 = r * r / d2, d = std::sqrt(d2);
+  return Cone{sin2 / (1 + std::sqrt(1 - sin2)), sin2, d, toCentre / d};
+}
+
+std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3& from,
+                                                    const Vec2& u) const {
+  const auto cone = coneFrom(from);
+  if (!cone) return Shape::sampleSolidAngle(element, from, u);
+  const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
+  if (!std::isfinite(pdf) || !(area(element) > 0)) return std::nullopt;
+
+  // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
+  // centre: α = asin(sin θ / sin θmax) − θ.
+  const double h = static_cast<double>(u.x) * cone->oneMinusCos;
+  const double sin2Theta = h * (2 - h), sinMax = std::sqrt(cone->sin2);
+  const double ratio2 = std::min(1., sin2Theta / cone->sin2);
+  const double cosAlpha = sin2Theta / sinMax + (1 - h) * std::sqrt(1 - ratio2);
+  const double sinAlpha = std::sqrt(ratio2) * (1 - h) - std::sqrt(sin2Theta * (1 - ratio2));
+  const double phi = 2 * M_PI * static_cast<double>(u.y);
+  const Frame frame = Frame::fromZ(normalize(Vec3(-cone->axis)));
+  // The frame is good to float precision, which turns the draw as a whole by that much.
+  const DVec3 n = sinAlpha * std::cos(phi) * DVec3(frame.x) +
+                  sinAlpha * std::sin(phi) * DVec3(frame.y) - cosAlpha * cone->axis;
+  const DVec3 object = glm::transpose(matrix()) * glm::normalize(n);
+  ShapeSample s = sampleAt(parametersOf(object * (radius_ / glm::length(object))));
+  s.pdf = pdf;
+  return s;
+}
+
+float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
+                            const Vec3& n) const {
+  const auto cone = coneFrom(from);
+  if (!cone) return Shape::pdfSolidAngle(element, from, p, n);
+  // The far side is never drawn. On the silhouette rounding of p decides nothing.
+  const DVec3 fromCentre = DVec3(p) - toWorld(DVec3(0)), back = DVec3(from) - DVec3(p);
+  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) *
+                           (glm::length(DVec3(p)) + glm::length(fromCentre)) * cone->distance;
+  if (glm::dot(fromCentre, back) < -tolerance) return 0;
+  const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
+  return std::isfinite(pdf) && area(element) > 0 ? pdf : 0;
+}
+
+std::unique_ptr<Shape> create(const SphereParameters& p, const ShapeContext& context) {
+  return std::make_unique<Sphere>(p, context);
+}
+
+}  // namespace
+
+ShapeRegistry::Entry spherePlugin() {
+  return makePlugin("sphere", "Sphere about the origin, or a part of it.", create);
+}
+
+}  // namespace lampyris

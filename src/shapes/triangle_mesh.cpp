@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shapes/triangle_mesh.h"
+
+#include <limits>
+
+#include "core/frame.h"
+#include "core/sampling.h"
+
+namespace lampyris {
+
+namespace {
+
+using DVec3 = glm::dvec3;
+
+/// Twice the area along the normal of (p0, p1, p2). In double: slivers keep their direction.
+DVec3 areaNormal(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
+  return glm::cross(DVec3(p1) - DVec3(p0), DVec3(p2) - DVec3(p0));
+}
+
+Vec3 unit(const DVec3& v) {
+  const double l = glm::length(v);
+  return l > 0 ? Vec3(v / l) : Vec3(0);
+}
+
+Vec3 finiteOrZero(const Vec3& v) { return isFinite(v) ? v : Vec3(0); }
+
+/// Σ of the absolute terms of a barycentric sum: what its rounding error scales with.
+Vec3 positionError(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& b) {
+  return roundingBound(7) * (glm::abs(b.x * p0) + glm::abs(b.y * p1) + glm::abs(b.z * p2));
+}
+
+/// Inverts [uv0 − uv2, uv1 − uv2]: the derivatives by u and v of what has the differences d02, d12.
+struct UvSolver {
+  explicit UvSolver(const std::array<Vec2, 3>& uv) {
+    const glm::dvec2 a = glm::dvec2(uv[0]) - glm::dvec2(uv[2]);
+    const glm::dvec2 b = glm::dvec2(uv[1]) - glm::dvec2(uv[2]);
+    const double determinant = a.x * b.y - a.y * b.x;
+    // Relative to its terms: below this the differences of the floats say nothing of it.
+    degenerate = !(std::abs(determinant) > 1e-7 * (std::abs(a.x * b.y) + std::abs(a.y * b.x)));
+    if (degenerate) return;
+    u = {b.y / determinant, -a.y / determinant};
+    v = {-b.x / determinant, a.x / determinant};
+  }
+  Vec3 byU(const Vec3& d02, const Vec3& d12) const {
+    return Vec3(u.x * DVec3(d02) + u.y * DVec3(d12));
+  }
+  Vec3 byV(const Vec3& d02, const Vec3& d12) const {
+    return Vec3(v.x * DVec3(d02) + v.y * DVec3(d12));
+  }
+
+  bool degenerate;
+  glm::dvec2 u{0}, v{0};
+};
+
+}  // namespace
+
+struct TriangleMesh::Corners {
+  std::array<uint32_t, 3> index;
+  Vec3 p0, p1, p2;
+};
+
+TriangleMesh::TriangleMesh(TriangleMeshData data, const Transform& objectToWorld,
+                           bool reverseOrientation)
+    : data_(std::move(data)),
+      vertexCount_(data_.positions.size()),
+      reverse_(reverseOrientation),
+      flip_(reverseOrientation != objectToWorld.swapsHandedness()) {
+  for (Vec3& p : data_.positions) p = objectToWorld.point(p);
+  // Not made unit: as in pbrt-v3 their lengths weigh in the interpolation.
+  for (Vec3& n : data_.normals) n = finiteOrZero(objectToWorld.normal(n));
+  for (Vec3& s : data_.tangents) s = finiteOrZero(objectToWorld.vector(s));
+  data_.positions.emplace_back(0);
+  data_.positions.shrink_to_fit();
+}
+
+TriangleMesh::Corners TriangleMesh::corners(uint32_t element) const {
+  const uint32_t* i = &data_.indices[3 * static_cast<size_t>(element)];
+  return {{i[0], i[1], i[2]}, data_.positions[i[0]], data_.positions[i[1]], data_.positions[i[2]]};
+}
+
+std::array<Vec2, 3> TriangleMesh::uvs(const Corners& c) const {
+  if (data_.uvs.empty()) return {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)};
+  return {data_.uvs[c.index[0]], data_.uvs[c.index[1]], data_.uvs[c.index[2]]};
+}
+
+Bounds3 TriangleMesh::bounds(uint32_t element) const {
+  const Corners c = corners(element);
+  Bounds3 b(c.p0, c.p1);
+  b.extend(c.p2);
+  return b;
+}
+
+std::optional<ShapeHit> TriangleMesh::intersect(uint32_t element, const Ray& ray) const {
+  const Corners c = corners(element);
+  const DVec3 o(ray.o), d(ray.d);
+  const DVec3 a = DVec3(c.p0) - o, b = DVec3(c.p1) - o, e = DVec3(c.p2) - o;
+  // Signed volumes with each edge (Plücker coordinates).
+  const double w0 = glm::dot(d, glm::cross(e, b));
+  const double w1 = glm::dot(d, glm::cross(a, e));
+  const double w2 = glm::dot(d, glm::cross(b, a));
+  if ((w0 < 0 || w1 < 0 || w2 < 0) && (w0 > 0 || w1 > 0 || w2 > 0)) return std::nullopt;
+  const double sum = w0 + w1 + w2;
+  const DVec3 n = areaNormal(c.p0, c.p1, c.p2);
+  const double cosine = glm::dot(n, d);
+  if (sum == 0 || cosine == 0) return std::nullopt;
+  const float t = static_cast<float>(glm::dot(n, a) / cosine);
+  if (!(t > 0 && t < ray.tMax)) return std::nullopt;
+  return ShapeHit{t, {static_cast<float>(w1 / sum), static_cast<float>(w2 / sum)}};
+}
+
+Vec3 TriangleMesh::interpolatedNormal(const Corners& c, const Vec3& b) const {
+  const Vec3 n = b.x * data_.normals[c.index[0]] + b.y * data_.normals[c.index[1]] +
+                 b.z * data_.normals[c.index[2]];
+  return reverse_ ? -n : n;
+}
+
+/// Vertex normals decide the side, else the order of the vertices; zero for a degenerate triangle.
+Vec3 TriangleMesh::orientedNormal(const Corners& c, const Vec3& b) const {
+  const Vec3 n = unit(areaNormal(c.p0, c.p1, c.p2));
+  if (!data_.normals.empty()) {
+    const Vec3 ns = interpolatedNormal(c, b);
+    if (ns != Vec3(0)) return faceForward(n, ns);
+  }
+  return flip_ ? -n : n;
+}
+
+void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray,
+                           SurfaceDetail detail, SurfaceInteraction& out) const {
+  const Corners c = corners(element);
+  const Vec3 b(1 - hit.uv.x - hit.uv.y, hit.uv.x, hit.uv.y);
+  out.p = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
+  out.pError = positionError(c.p0, c.p1, c.p2, b);
+  out.time = ray.time;
+  out.dndu = out.dndv = out.shading.dndu = out.shading.dndv = Vec3(0);
+  const auto uv = uvs(c);
+  out.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
+
+  out.n = orientedNormal(c, b);
+  // A ray tracer may report the edge of a triangle without area; it has no normal of its own.
+  if (out.n == Vec3(0)) out.n = normalize(-ray.d);
+  const UvSolver solver(uv);
+  if (!solver.degenerate) {
+    out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
+    out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
+  }
+  const Vec3 across = cross(normalize(out.dpdu), normalize(out.dpdv));
+  if (solver.degenerate || !(lengthSquared(across) > sqr(roundingBound(8))) || !isFinite(out.dpdu) ||
+      !isFinite(out.dpdv))
+    completeBasis(out.n, out.dpdu, out.dpdv);
+  out.shading.n = out.n;
+  out.shading.dpdu = out.dpdu;
+  out.shading.dpdv = out.dpdv;
+
+  if (!data_.normals.empty() || !data_.tangents.empty()) setShadingFrame(c, b, out);
+  if (detail == SurfaceDetail::Full && !data_.normals.empty()) setNormalDerivatives(c, b, uv, out);
+}
+
+/// Shading normal and tangents of unit length, made orthogonal, such that cross(dpdu, dpdv) is the
+/// shading normal. As in pbrt-v3 both tangents point against the parameterisation, which decides
+/// the side to which bump maps bulge.
+void TriangleMesh::setShadingFrame(const Corners& c, const Vec3& b, SurfaceInteraction& out) const {
+  if (!data_.normals.empty()) {
+    const Vec3 ns = normalize(interpolatedNormal(c, b));
+    if (ns != Vec3(0)) out.shading.n = ns;
+  }
+  Vec3 ss(0);
+  if (!data_.tangents.empty()) {
+    ss = normalize(b.x * data_.tangents[c.index[0]] + b.y * data_.tangents[c.index[1]] +
+                   b.z * data_.tangents[c.index[2]]);
+  }
+  if (ss == Vec3(0)) ss = normalize(out.dpdu);
+  const Vec3 ns = out.shading.n;
+  const Vec3 ts = normalize(cross(ss, ns));
+  if (ts == Vec3(0)) {
+    completeBasis(ns, out.shading.dpdu, out.shading.dpdv);
+  } else {
+    out.shading.dpdu = cross(ts, ns);
+    out.shading.dpdv = ts;
+  }
+}
+
+void TriangleMesh::setNormalDerivatives(const Corners& c, const Vec3& b,
+                                        const std::array<Vec2, 3>& uv,
+                                        SurfaceInteraction& out) const {
+  UvSolver solver(uv);
+  // Without a parameterisation: by the arbitrary frame that stands in for it.
+  if (solver.degenerate) {
+    solver = UvSolver({Vec2(dot(c.p0 - c.p2, out.dpdu), dot(c.p0 - c.p2, out.dpdv)),
+                       Vec2(dot(c.p1 - c.p2, out.dpdu), dot(c.p1 - c.p2, out.dpdv)), Vec2(0)});
+  }
+  const Vec3 d02 = data_.normals[c.index[0]] - data_.normals[c.index[2]];
+  const Vec3 d12 = data_.normals[c.index[1]] - data_.normals[c.index[2]];
+  // The derivative of N / |N|.
+  const Vec3 n = interpolatedNormal(c, b);
+  const float scale = (reverse_ ? -1.f : 1.f) / length(n);
+  const auto project = [&](const Vec3& v) {
+    return scale * (v - dot(out.shading.n, v) * out.shading.n);
+  };
+  const Vec3 dndu = project(solver.byU(d02, d12)), dndv = project(solver.byV(d02, d12));
+  if (!isFinite(dndu) || !isFinite(dndv)) return;
+  out.shading.dndu = dndu;
+  out.shading.dndv = dndv;
+}
+
+float TriangleMesh::area(uint32_t element) const {
+  const Corners c = corners(element);
+  const auto a = static_cast<float>(0.5 * glm::length(areaNormal(c.p0, c.p1, c.p2)));
+  // 1 / area is a density: it has to be finite.
+  return a >= std::numeric_limits<float>::min() && std::isfinite(a) ? a : 0.f;
+}
+
+std::optional<ShapeSample> TriangleMesh::sampleArea(uint32_t element, const Vec2& u) const {
+  const float a = area(element);
+  if (!(a > 0)) return std::nullopt;
+  const Corners c = corners(element);
+  const Vec2 b01 = sampleUniformTriangle(u);
+  const Vec3 b(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
+  const auto uv = uvs(c);
+  ShapeSample s;
+  s.p = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
+  s.pError = positionError(c.p0, c.p1, c.p2, b);
+  s.n = orientedNormal(c, b);
+  s.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
+  s.pdf = 1 / a;
+  return s;
+}
+
+Shape::NormalCone TriangleMesh::normalCone(uint32_t element) const {
+  const Corners c = corners(element);
+  const Vec3 n = unit(areaNormal(c.p0, c.p1, c.p2));
+  if (n == Vec3(0)) return {};
+  if (data_.normals.empty()) return {flip_ ? -n : n, 1};
+  const float d0 = dot(n, interpolatedNormal(c, {1, 0, 0}));
+  const float d1 = dot(n, interpolatedNormal(c, {0, 1, 0}));
+  const float d2 = dot(n, interpolatedNormal(c, {0, 0, 1}));
+  if (d0 > 0 && d1 > 0 && d2 > 0) return {n, 1};
+  if (d0 < 0 && d1 < 0 && d2 < 0) return {-n, 1};
+  // Vertex normals on both sides: so is the interpolated one, and with it the geometric normal.
+  return {n, -1};
+}
+
+}  // namespace lampyris

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Triangle meshes: the shape behind trianglemesh, plymesh and loopsubdiv.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/shape.h"
+
+namespace lampyris {
+
+/// Arrays of a mesh, in object space. `normals`, `tangents` and `uvs` are empty or one a vertex.
+struct TriangleMeshData {
+  std::vector<uint32_t> indices;  ///< three a triangle
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec3> tangents;
+  std::vector<Vec2> uvs;
+};
+
+/// Conventions of pbrt-v3 for uv, tangents and orientation. Vertices are kept in world space, once;
+/// there is no object per triangle. ShapeHit::uv is (b1, b2).
+class TriangleMesh final : public Shape {
+ public:
+  /// `data` must be consistent: see makeTriangleMesh.
+  TriangleMesh(TriangleMeshData data, const Transform& objectToWorld, bool reverseOrientation);
+
+  uint32_t elementCount() const override { return static_cast<uint32_t>(triangleCount()); }
+  /// The storage of `positions` is readable one element beyond vertexCount, as Embree's 16-byte
+  /// loads of the last vertex want it.
+  TriangleBuffers triangles() const override {
+    return {data_.positions.data(), vertexCount_, data_.indices.data(), triangleCount()};
+  }
+  Bounds3 bounds(uint32_t element) const override;
+  /// For tests and callers without a ray tracer; in double precision.
+  std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const override;
+  void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
+               SurfaceInteraction& out) const override;
+  float area(uint32_t element) const override;
+  std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const override;
+  NormalCone normalCone(uint32_t element) const override;
+
+  const TriangleMeshData& data() const { return data_; }  ///< positions: with the padding element
+  size_t vertexCount() const { return vertexCount_; }
+
+ private:
+  struct Corners;
+  size_t triangleCount() const { return data_.indices.size() / 3; }
+  Corners corners(uint32_t element) const;
+  std::array<Vec2, 3> uvs(const Corners& c) const;
+  Vec3 interpolatedNormal(const Corners& c, const Vec3& b) const;
+  Vec3 orientedNormal(const Corners& c, const Vec3& b) const;
+  void setShadingFrame(const Corners& c, const Vec3& b, SurfaceInteraction& out) const;
+  void setNormalDerivatives(const Corners& c, const Vec3& b, const std::array<Vec2, 3>& uv,
+                            SurfaceInteraction& out) const;
+
+  TriangleMeshData data_;
+  size_t vertexCount_;
+  bool reverse_, flip_;
+};
+
+/// Checks `data` and makes the mesh. Throws SceneError (at context.location, naming `source`): no
+/// triangles, an index that is no vertex, counts that do not fit, positions that are not finite.
+/// Normals, tangents and uv that are not finite count as absent (0), with a warning.
+std::unique_ptr<Shape> makeTriangleMesh(TriangleMeshData data, const ShapeContext& context,
+                                        const std::string& source);
+
+/// Converts the indices of a scene file. Throws SceneError on negative ones and on a count that is
+/// no multiple of 3.
+std::vector<uint32_t> toIndices(const std::vector<int>& indices, const ShapeContext& context,
+                                const std::string& source);
+
+}  // namespace lampyris
