@@ -2,6 +2,11 @@
 #include "cameras/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_CAMERAS(PLUGIN)
+// clang-format off
+#define LAMPYRIS_CAMERAS(PLUGIN) \
+  PLUGIN(perspectiveCamera)      \
+  PLUGIN(orthographicCamera)     \
+  PLUGIN(environmentCamera)
+// clang-format on
 
 LAMPYRIS_REGISTRY(cameraRegistry, "camera", CameraRegistry, LAMPYRIS_CAMERAS)

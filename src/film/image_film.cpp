@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film "image". Parameters, crop windows and clamping follow pbrt-v3; its filter is sampled
+// (base/filter.h), so a sample touches one pixel and no locks are needed.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "base/film.h"
+#include "core/image.h"
+#include "core/math.h"
+#include "film/pixel_sums.h"
+
+namespace lampyris {
+
+namespace {
+
+struct ImageFilmParameters {
+  int xResolution = 640, yResolution = 480;
+  std::vector<float> cropWindow{0, 1, 0, 1};
+  float scale = 1, maxSampleLuminance = kInfinity, diagonal = 35;
+  std::string filename = "lampyris.exr";
+  void declare(Declaration& d) {
+    d.add("xresolution", xResolution, "Width of the image, in pixels.").range(1, 1 << 20);
+    d.add("yresolution", yResolution, "Height of the image, in pixels.").range(1, 1 << 20);
+    d.add("cropwindow", cropWindow,
+          "The part of the image to render: x0 x1 y0 y1 as fractions of its width and height.")
+        .defaultIs("[0 1 0 1]");
+    d.add("scale", scale, "Factor on the pixels.").range(0, 1e30);
+    d.add("maxsampleluminance", maxSampleLuminance,
+          "A sample brighter than this is darkened to it.")
+        .atLeast(0)
+        .defaultIs("infinity");
+    d.add("diagonal", diagonal, "Diagonal of the film, in millimetres.").range(1e-6, 1e6);
+    d.add("filename", filename, "Where the image is written, in the format of its ending.");
+  }
+};
+
+/// Plain loads and stores that another thread may race with: a preview reads sums while samples
+/// are added. Each value is whole; sums and count may differ by one sample.
+template <class T>
+T load(const T& v) {
+  return std::atomic_ref<T>(const_cast<T&>(v)).load(std::memory_order_relaxed);
+}
+template <class T>
+void store(T& v, T to) {
+  std::atomic_ref<T>(v).store(to, std::memory_order_relaxed);
+}
+
+float toFloat(double v) {
+  constexpr double kMax = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(v, 0., kMax));
+}
+
+/// Colours outside the sRGB gamut have negative components, but light has no negative luminance
+/// beyond what rounding leaves of the largest component.
+bool isValid(const Rgb& c) {
+  const float largest = std::max(std::abs(c.r), std::max(std::abs(c.g), std::abs(c.b)));
+  return c.isFinite() && c.luminance() >= -1e-5f * largest;
+}
+
+class ImageFilm final : public Film {
+ public:
+  ImageFilm(const ImageFilmParameters& p, const PixelBounds& bounds, std::unique_ptr<Filter> filter)
+      : resolution_(p.xResolution, p.yResolution),
+        bounds_(bounds),
+        filter_(std::move(filter)),
+        filename_(p.filename),
+        scale_(static_cast<double>(p.scale)),
+        maxLuminance_(p.maxSampleLuminance),
+        pixels_(static_cast<size_t>(bounds.area())) {}
+
+  Int2 resolution() const override { return resolution_; }
+  PixelBounds bounds() const override { return bounds_; }
+  const Filter& filter() const override { return *filter_; }
+  const std::string& filename() const override { return filename_; }
+
+  bool addSample(const Int2& pixel, const Rgb& radiance, float weight) override {
+    PixelSums& sums = pixels_[index(pixel)];
+    store(sums.count, sums.count + 1);
+    if (!isValid(radiance)) return false;
+    const auto y = static_cast<double>(radiance.luminance());
+    double factor = static_cast<double>(weight);
+    if (y > static_cast<double>(maxLuminance_)) factor *= static_cast<double>(maxLuminance_) / y;
+    store(sums.r, sums.r + factor * static_cast<double>(radiance.r));
+    store(sums.g, sums.g + factor * static_cast<double>(radiance.g));
+    store(sums.b, sums.b + factor * static_cast<double>(radiance.b));
+    store(sums.luminanceSquares, sums.luminanceSquares + sqr(factor * y));
+    return true;
+  }
+
+  uint64_t sampleCount(const Int2& pixel) const override {
+    return load(pixels_[index(pixel)].count);
+  }
+
+  Rgb pixel(const Int2& pixel) const override {
+    const PixelSums& sums = pixels_[index(pixel)];
+    const uint64_t count = load(sums.count);
+    if (count == 0) return Rgb();
+    const double factor = scale_ / static_cast<double>(count);
+    return {toFloat(load(sums.r) * factor), toFloat(load(sums.g) * factor),
+            toFloat(load(sums.b) * factor)};
+  }
+
+  double noise() const override;
+
+  void write(const std::string& path, const ImageMetadata& metadata) const override {
+    const Int2 size = bounds_.size();
+    Image image(size.x, size.y, 3);
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) image.setRgb(x, y, pixel(bounds_.min + Int2(x, y)));
+    WriteOptions options;
+    options.metadata = metadata;
+    options.placement = {bounds_.min, resolution_};
+    writeImageFile(path, image, options);
+  }
+
+  std::string save() const override { return encodeSums(bounds_, pixels_); }
+  bool restore(const std::string& bytes) override { return decodeSums(bytes, bounds_, pixels_); }
+
+ private:
+  size_t index(const Int2& p) const {
+    assert(bounds_.contains(p));
+    const Int2 local = p - bounds_.min;
+    return static_cast<size_t>(local.y) * static_cast<size_t>(bounds_.size().x) +
+           static_cast<size_t>(local.x);
+  }
+
+  Int2 resolution_;
+  PixelBounds bounds_;
+  std::unique_ptr<Filter> filter_;
+  std::string filename_;
+  double scale_;
+  float maxLuminance_;
+  std::vector<PixelSums> pixels_;
+};
+
+/// Infinite as long as no pixel has two samples: nothing is known then, and nobody should stop.
+double ImageFilm::noise() const {
+  double meanSum = 0, errorSum = 0;
+  uint64_t pixels = 0;
+  for (const PixelSums& sums : pixels_) {
+    const uint64_t count = load(sums.count);
+    if (count < 2) continue;
+    const auto n = static_cast<double>(count);
+    const double mean =
+        (0.212671 * load(sums.r) + 0.715160 * load(sums.g) + 0.072169 * load(sums.b)) / n;
+    errorSum += std::max(0., load(sums.luminanceSquares) / n - mean * mean) / (n - 1);
+    meanSum += mean;
+    ++pixels;
+  }
+  if (pixels == 0) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(pixels);
+  const double error = std::sqrt(errorSum / n), mean = std::abs(meanSum / n);
+  if (error == 0) return 0;
+  return mean > 0 ? error / mean : std::numeric_limits<double>::infinity();
+}
+
+/// pbrt-v3's rule, in its precision: ⌈resolution · fraction⌉ on both ends.
+PixelBounds cropBounds(const ImageFilmParameters& p, SourceLocation where) {
+  const auto& crop = p.cropWindow;
+  if (crop.size() != 4)
+    throw SceneError(where,
+                     fmt::format("parameter \"cropwindow\": expected 4 values (x0 x1 y0 y1), "
+                                 "got {}",
+                                 crop.size()));
+  const auto border = [](int resolution, float fraction) {
+    return static_cast<int>(
+        std::ceil(static_cast<float>(resolution) * std::clamp(fraction, 0.f, 1.f)));
+  };
+  if (!(crop[0] < crop[1] && crop[2] < crop[3]))
+    throw SceneError(where, fmt::format("parameter \"cropwindow\": expected x0 < x1 and y0 < y1, "
+                                        "got {} {} {} {}",
+                                        crop[0], crop[1], crop[2], crop[3]));
+  const PixelBounds bounds{{border(p.xResolution, crop[0]), border(p.yResolution, crop[2])},
+                           {border(p.xResolution, crop[1]), border(p.yResolution, crop[3])}};
+  if (bounds.area() == 0)
+    throw SceneError(where,
+                     fmt::format("parameter \"cropwindow\": {} {} {} {} holds no pixel of "
+                                 "{} x {}",
+                                 crop[0], crop[1], crop[2], crop[3], p.xResolution, p.yResolution));
+  return bounds;
+}
+
+/// A mistyped resolution should be an error at once, not a machine that swaps to death.
+void checkMemory(const PixelBounds& bounds, SourceLocation where) {
+  const double bytes = static_cast<double>(bounds.area()) * sizeof(PixelSums);
+  const double installed =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (installed > 0 && bytes > installed)
+    throw SceneError(where, fmt::format("{} x {} pixels need {:.0f} GB of memory, more than there "
+                                        "is; render a smaller image or crop window",
+                                        bounds.size().x, bounds.size().y, bytes * 1e-9));
+}
+
+std::unique_ptr<Film> create(const ImageFilmParameters& p, const ParameterSet& set,
+                             const FilmContext& context) {
+  const auto at = [&](const char* name) {
+    const Parameter* parameter = set.find(name);
+    return parameter && parameter->location.known() ? parameter->location : context.location;
+  };
+  const PixelBounds bounds = cropBounds(p, at("cropwindow"));
+  // Here and not when the image is done, which may be hours later.
+  if (!isWritableImagePath(p.filename))
+    throw SceneError(
+        at("filename"),
+        fmt::format("parameter \"filename\": cannot write \"{}\"; expected a name that "
+                    "ends in .exr, .pfm, .png, .hdr, .tga or .jpg",
+                    p.filename));
+  if (!context.filter) throw SceneError(context.location, "a film needs a pixel filter");
+  checkMemory(bounds, at("xresolution"));
+  try {
+    return std::make_unique<ImageFilm>(p, bounds, std::move(context.filter));
+  } catch (const std::bad_alloc&) {
+    throw SceneError(at("xresolution"), "not enough memory for the image; make it smaller");
+  }
+}
+
+}  // namespace
+
+FilmRegistry::Entry imageFilmPlugin() {
+  const Schema schema = Schema::of<ImageFilmParameters>();
+  return {{"image", "Renders into an image file.", schema, {}},
+          [schema](const ParameterSet& set, const FilmContext& context) {
+            ImageFilmParameters p;
+            schema.read(set, &p);
+            return create(p, set, context);
+          }};
+}
+
+}  // namespace lampyris
