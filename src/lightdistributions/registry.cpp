@@ -2,6 +2,11 @@
 #include "lightdistributions/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_LIGHT_DISTRIBUTIONS(PLUGIN)
+#define LAMPYRIS_LIGHT_DISTRIBUTIONS(PLUGIN) \
+  PLUGIN(bvhLightDistribution)               \
+  PLUGIN(powerLightDistribution)             \
+  PLUGIN(spatialLightDistribution)           \
+  PLUGIN(uniformLightDistribution)
 
-LAMPYRIS_REGISTRY(lightDistributionRegistry, "lightsampler", LightDistributionRegistry, LAMPYRIS_LIGHT_DISTRIBUTIONS)
+LAMPYRIS_REGISTRY(lightDistributionRegistry, "lightsampler", LightDistributionRegistry,
+                  LAMPYRIS_LIGHT_DISTRIBUTIONS)

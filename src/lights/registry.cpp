@@ -2,6 +2,10 @@
 #include "lights/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_LIGHTS(PLUGIN)
+#define LAMPYRIS_LIGHTS(PLUGIN) \
+  PLUGIN(distantLight)          \
+  PLUGIN(infiniteLight)         \
+  PLUGIN(pointLight)            \
+  PLUGIN(spotLight)
 
 LAMPYRIS_REGISTRY(lightRegistry, "light", LightRegistry, LAMPYRIS_LIGHTS)

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/light.h"
+#include "lights/emission.h"
+
+namespace lampyris {
+namespace {
+
+struct DistantLightParameters {
+  Rgb radiance{1}, scale{1};
+  Vec3 from{0}, to{0, 0, 1};
+  void declare(Declaration& d) {
+    d.add("L", radiance, "Irradiance on a plane that faces the light (W/m²).");
+    d.add("scale", scale, "Factor on L.");
+    d.add("from", from, "With \"to\": the light shines along to − from, in the light's space.");
+    d.add("to", to, "See \"from\".");
+  }
+};
+
+class DistantLight final : public Light {
+ public:
+  DistantLight(const Vec3& towardsLight, const Rgb& irradiance)
+      : w_(towardsLight), irradiance_(irradiance) {}
+
+  bool isDelta() const override { return true; }
+  bool isInfinite() const override { return true; }
+  void prepare(const Bounds3& scene) override {
+    const float radius = 0.5f * scene.diagonal();
+    if (radius > 0 && std::isfinite(radius)) sceneRadius_ = radius;
+  }
+
+  std::optional<LightSample> sample(uint32_t, const Vec3&, const Vec2&) const override {
+    if (irradiance_.isBlack()) return std::nullopt;
+    LightSample s;
+    s.radiance = irradiance_;
+    s.wi = w_;
+    s.pdf = 1;
+    return s;
+  }
+
+  Rgb power(uint32_t) const override { return irradiance_ * (kPi * sqr(sceneRadius_)); }
+  std::optional<LightBounds> bounds(uint32_t) const override { return std::nullopt; }
+  float irradianceEstimate(const Vec3& n, bool transmits) const override {
+    const float cosine = dot(n, w_);
+    return irradiance_.luminance() * (transmits ? std::abs(cosine) : std::max(cosine, 0.f));
+  }
+
+ private:
+  Vec3 w_;
+  Rgb irradiance_;
+  float sceneRadius_ = 1;
+};
+
+std::unique_ptr<Light> create(const DistantLightParameters& p, const LightContext& context) {
+  const Vec3 w = normalize(context.lightToWorld.vector(p.from - p.to));
+  if (w == Vec3(0))
+    throw SceneError(context.location,
+                     "\"from\" and \"to\" of the distant light must be different "
+                     "points: they give its direction");
+  return std::make_unique<DistantLight>(w, emittedColor(p.radiance, p.scale, context));
+}
+
+}  // namespace
+
+LightRegistry::Entry distantLightPlugin() {
+  return makePlugin("distant", "Parallel light from infinitely far away.", create);
+}
+
+}  // namespace lampyris

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// An image wrapped around the unit sphere: what an infinite light with a map emits.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/image.h"
+#include "core/rgb.h"
+#include "core/sampling.h"
+#include "core/vector.h"
+
+namespace lampyris {
+
+/// Conventions of pbrt-v3: z is up, the image's top row lies at θ = 0, columns run with φ from +x
+/// over +y; values are used as stored, also those of 8-bit files. Bilinear between the texels'
+/// centres, both axes wrap. Directions are unit and in the light's space.
+class EnvironmentMap {
+ public:
+  /// `image` must not be empty; values that are negative or not finite must have been removed.
+  EnvironmentMap(std::shared_ptr<const Image> image, const Rgb& scale);
+
+  Rgb radiance(const Vec3& w) const;
+  /// A direction with density pdf(w); of measure zero at the poles.
+  Vec3 sample(const Vec2& u) const;
+  /// By solid angle; > 0 wherever radiance() is not black, but for the poles themselves.
+  float pdf(const Vec3& w) const;
+  /// Mean over the sphere.
+  Rgb mean() const { return mean_; }
+  /// Luminance of the irradiance on a surface with normal `n`, or on both its sides, by the nine
+  /// spherical harmonics up to the second degree (Ramamoorthi and Hanrahan 2001): a few percent off
+  /// for skies, up to a fifth of all light for a lone sun. Never less than 2% of π times the mean.
+  float irradiance(const Vec3& n, bool bothSides) const;
+
+ private:
+  void buildTables();
+  Rgb lookup(const Vec2& st) const;
+
+  std::shared_ptr<const Image> image_;
+  Rgb scale_;
+  Rgb mean_;
+  std::array<double, 9> harmonics_{};  ///< of the luminance
+  Distribution2D distribution_;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/light.h"
+#include "lights/emission.h"
+
+namespace lampyris {
+namespace {
+
+struct PointLightParameters {
+  Rgb intensity{1}, scale{1};
+  Vec3 from{0};
+  void declare(Declaration& d) {
+    d.add("I", intensity, "Radiant intensity (W/sr).");
+    d.add("scale", scale, "Factor on I.");
+    d.add("from", from, "Position, in the light's space.");
+  }
+};
+
+class PointLight final : public Light {
+ public:
+  PointLight(const Vec3& p, const Rgb& intensity) : p_(p), intensity_(intensity) {}
+
+  bool isDelta() const override { return true; }
+
+  std::optional<LightSample> sample(uint32_t, const Vec3& from, const Vec2&) const override {
+    const Vec3 d = p_ - from;
+    const float squared = lengthSquared(d);
+    const Rgb irradiance = intensity_ / squared;
+    if (!(squared > 0) || !irradiance.isFinite() || irradiance.isBlack()) return std::nullopt;
+    LightSample s;
+    s.radiance = irradiance;
+    s.distance = std::sqrt(squared);
+    s.wi = d / s.distance;
+    s.pdf = 1;
+    s.p = p_;
+    return s;
+  }
+
+  Rgb power(uint32_t) const override { return 4 * kPi * intensity_; }
+  std::optional<LightBounds> bounds(uint32_t) const override {
+    LightBounds b;
+    b.box = Bounds3(p_);
+    b.intensity = intensity_.luminance();
+    return b;
+  }
+
+ private:
+  Vec3 p_;
+  Rgb intensity_;
+};
+
+std::unique_ptr<Light> create(const PointLightParameters& p, const LightContext& context) {
+  return std::make_unique<PointLight>(context.lightToWorld.point(p.from),
+                                      emittedColor(p.intensity, p.scale, context));
+}
+
+}  // namespace
+
+LightRegistry::Entry pointLightPlugin() {
+  return makePlugin("point", "Light from a point, equal in all directions.", create);
+}
+
+}  // namespace lampyris
