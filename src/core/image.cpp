@@ -39,7 +39,7 @@ float decodeValue(float v) {
     return t;
   }();
   if (!(v >= 0 && v <= 1)) return srgbToLinear(v);
-  const auto i = static_cast<size_t>(v * 255.f + 0.5f);
+  const auto i = static_cast<size_t>(std::lround(v * 255.f));
   return v == static_cast<float>(i) / 255.f ? table[i] : srgbToLinear(v);
 }
 

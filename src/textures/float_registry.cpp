@@ -2,6 +2,13 @@
 #include "textures/float_registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_FLOAT_TEXTURES(PLUGIN)
+#define LAMPYRIS_FLOAT_TEXTURES(PLUGIN) \
+  PLUGIN(constantFloatTexture)          \
+  PLUGIN(scaleFloatTexture)             \
+  PLUGIN(mixFloatTexture)               \
+  PLUGIN(bilerpFloatTexture)            \
+  PLUGIN(imagemapFloatTexture)          \
+  PLUGIN(checkerboardFloatTexture)
 
-LAMPYRIS_REGISTRY(floatTextureRegistry, "float texture", FloatTextureRegistry, LAMPYRIS_FLOAT_TEXTURES)
+LAMPYRIS_REGISTRY(floatTextureRegistry, "float texture", FloatTextureRegistry,
+                  LAMPYRIS_FLOAT_TEXTURES)

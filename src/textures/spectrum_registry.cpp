@@ -2,6 +2,14 @@
 #include "textures/spectrum_registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_SPECTRUM_TEXTURES(PLUGIN)
+#define LAMPYRIS_SPECTRUM_TEXTURES(PLUGIN) \
+  PLUGIN(constantSpectrumTexture)          \
+  PLUGIN(scaleSpectrumTexture)             \
+  PLUGIN(mixSpectrumTexture)               \
+  PLUGIN(bilerpSpectrumTexture)            \
+  PLUGIN(imagemapSpectrumTexture)          \
+  PLUGIN(uvSpectrumTexture)                \
+  PLUGIN(checkerboardSpectrumTexture)
 
-LAMPYRIS_REGISTRY(spectrumTextureRegistry, "spectrum texture", SpectrumTextureRegistry, LAMPYRIS_SPECTRUM_TEXTURES)
+LAMPYRIS_REGISTRY(spectrumTextureRegistry, "spectrum texture", SpectrumTextureRegistry,
+                  LAMPYRIS_SPECTRUM_TEXTURES)
