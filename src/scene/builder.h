@@ -22,11 +22,12 @@ struct RenderJob {
 
 /// What the command line changes of a scene.
 struct BuildOptions {
-  /// `-D kind.parameter=value`, kind one of integrator, sampler, film, camera, filter, lightsampler.
+  /// `-D kind.parameter=value`, kind one of integrator, sampler, film, camera, filter,
+  /// lightsampler.
   std::vector<std::pair<std::string, std::string>> overrides;
-  int samplesPerPixel = 0;      ///< > 0: instead of the sampler's
+  int samplesPerPixel = 0;  ///< > 0: instead of the sampler's
   uint64_t seed = 0;
-  std::string outputPath;       ///< not empty: instead of the film's filename
+  std::string outputPath;  ///< not empty: instead of the film's filename
   /// Not empty: x0, x1, y0, y1 in [0, 1] instead of the film's cropwindow.
   std::vector<float> cropWindow;
 };

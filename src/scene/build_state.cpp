@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/build_state.h"
+
+#include <exception>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "scene/parser.h"
+
+namespace lampyris {
+
+BuildState::BuildState(const Description& description, const BuildOptions& options,
+                       std::string folder, SourceFiles& files, Diagnostics& diagnostics,
+                       Statistics& statistics, RenderJob& job)
+    : description(description),
+      options(options),
+      diagnostics(diagnostics),
+      statistics(statistics),
+      job(job),
+      resolvePath([folder](const std::string& name) { return resolveScenePath(folder, name); }),
+      overrides(options.overrides),
+      spectra(folder, files) {}
+
+const Transform& BuildState::transform(uint32_t index, SourceLocation where) const {
+  const TransformPair& pair = description.transforms[index];
+  if (pair.isAnimated())
+    diagnostics.warn(where,
+                     "motion is not rendered yet: everything stands where it is at the "
+                     "start of the shutter's time");
+  return pair.start;
+}
+
+void parallelForEach(size_t count, size_t grain, const std::function<void(size_t)>& body) {
+  std::mutex mutex;
+  std::exception_ptr error;
+  size_t errorAt = count;
+  parallelFor(count, grain, [&](size_t begin, size_t end) {
+    size_t i = begin;
+    try {
+      for (; i < end; ++i) body(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (i < errorAt) errorAt = i, error = std::current_exception();
+    }
+  });
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace lampyris

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/plugin_lookup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/tokenizer.h"
+
+namespace lampyris {
+
+namespace {
+
+/// What pbrt-v3 has beyond this program; looked at only for names that a registry lacks.
+struct KindNames {
+  std::string_view kind, shownAs;
+  std::vector<std::string_view> names;
+};
+const std::vector<KindNames>& pbrtNames() {
+  static const std::vector<KindNames> all = {
+      {"shape",
+       "shape",
+       {"cone", "paraboloid", "hyperboloid", "curve", "nurbs", "heightfield", "loopsubdiv"}},
+      {"material", "material", {"disney", "hair", "fourier", "subsurface", "kdsubsurface"}},
+      {"float texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
+      {"spectrum texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
+      {"light", "light", {"projection", "goniometric"}},
+      {"camera", "camera", {"realistic"}},
+      {"integrator",
+       "integrator",
+       {"volpath", "whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
+  };
+  return all;
+}
+
+bool allKnown(const ParameterSet& set, std::span<const Schema* const> schemas) {
+  return std::all_of(set.parameters.begin(), set.parameters.end(), [&](const Parameter& p) {
+    return std::any_of(schemas.begin(), schemas.end(), [&p](const Schema* s) {
+      const ParameterDeclaration* d = s->find(p.name);
+      return d && d->ignoredBecause.empty();
+    });
+  });
+}
+
+}  // namespace
+
+void failUnknownPlugin(const RegistryInfo& registry, std::string_view name, SourceLocation where) {
+  for (const KindNames& k : pbrtNames())
+    if (k.kind == registry.kind() &&
+        std::find(k.names.begin(), k.names.end(), name) != k.names.end())
+      throw SceneError(where, fmt::format("{} is a pbrt-v3 {} that Lampyris does not render yet",
+                                          inQuotes(name), k.shownAs));
+  throw SceneError(where, fmt::format("unknown {} {}{}", registry.kind(), inQuotes(name),
+                                      didYouMean(name.substr(0, 64), registry.names())));
+}
+
+void checkParameters(const ParameterSet& set, std::span<const Schema* const> schemas,
+                     const RegistryInfo& registry, std::string_view pluginName,
+                     Diagnostics& diagnostics) {
+  if (!allKnown(set, schemas))
+    checkUnknownParameters(set, schemas, registry, pluginName, diagnostics);
+}
+
+const Parameter* findDeclared(const ParameterSet& set, const ParameterDeclaration& declaration) {
+  for (size_t i = set.parameters.size(); i-- > 0;)
+    if (declaration.matches(set.parameters[i].name)) return &set.parameters[i];
+  return nullptr;
+}
+
+}  // namespace lampyris

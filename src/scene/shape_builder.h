@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/geometry.h"
+#include "scene/build_state.h"
+
+namespace lampyris {
+
+/// A shape of the description that is in the scene. What it owns until the scene takes it over is
+/// what `primitive` points to.
+struct BuiltShape {
+  const ShapeDescription* description = nullptr;
+  uint32_t object = kNone;  ///< in Description::objects; kNone: of the world
+  Primitive primitive;      ///< without firstLight until the lights have numbers
+  std::unique_ptr<Light> light;
+  Bounds3 bounds;
+};
+
+struct BuiltShapes {
+  std::vector<BuiltShape> shapes;     ///< in the file's order
+  Bounds3 worldBounds;                ///< of the shapes that are in no object
+  std::vector<Bounds3> objectBounds;  ///< in the objects' own space
+};
+
+/// Builds the shapes of the world and of objects that are placed, in parallel, with their
+/// materials, alpha textures and area lights.
+BuiltShapes buildShapes(BuildState& state);
+
+}  // namespace lampyris
