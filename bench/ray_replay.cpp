@@ -107,9 +107,11 @@ int run(int argc, char** argv) {
   Diagnostics diagnostics(files, [](const std::string& text) { fmt::print("{}\n", text); });
   Statistics statistics;
   const auto job = loadScene(path, options, files, diagnostics, statistics);
-  const auto render = [&](uint64_t samples) {
+  uint64_t sample = 0;
+  const auto renderOneSample = [&] {
     RenderContext context{job->scene, *job->camera, *job->sampler, *job->film, {}, statistics};
-    context.options.sampleCount = samples;
+    context.options.firstSample = sample;
+    context.options.sampleCount = ++sample;
     const double start = now();
     job->integrator->render(context);
     return now() - start;
@@ -120,7 +122,7 @@ int run(int argc, char** argv) {
   auto recorder = std::make_unique<RecordingGeometry>(std::move(job->scene.geometry), rays);
   RecordingGeometry& recording = *recorder;
   job->scene.geometry = std::move(recorder);
-  render(1);
+  renderOneSample();
   job->scene.geometry = recording.release();
 
   const auto paths = static_cast<double>(job->film->bounds().area());
@@ -132,7 +134,7 @@ int run(int argc, char** argv) {
   std::vector<double> renderTimes, replayTimes, ratios;
   size_t hits = 0;
   for (int i = 0; i < rounds; ++i) {
-    renderTimes.push_back(render(1));
+    renderTimes.push_back(renderOneSample());
     const double start = now();
     hits = replay(embree, rays);
     replayTimes.push_back(now() - start);

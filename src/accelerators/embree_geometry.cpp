@@ -169,6 +169,7 @@ class EmbreeGeometry final : public Geometry {
         .primitives[hit.primitive];
   }
   Bounds3 bounds() const override { return bounds_; }
+  RTCScene scene() const { return scene_.get(); }
 
  private:
   void attachInstances();
@@ -315,6 +316,10 @@ SurfaceInteraction EmbreeGeometry::surface(const Ray& ray, const Hit& hit,
 
 std::unique_ptr<Geometry> makeEmbreeGeometry(GeometryDescription description) {
   return std::make_unique<EmbreeGeometry>(std::move(description));
+}
+
+RTCSceneTy* embreeScene(const Geometry& geometry) {
+  return dynamic_cast<const EmbreeGeometry&>(geometry).scene();
 }
 
 }  // namespace lampyris

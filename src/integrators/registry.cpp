@@ -2,6 +2,6 @@
 #include "integrators/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_INTEGRATORS(PLUGIN)
+#define LAMPYRIS_INTEGRATORS(PLUGIN) PLUGIN(path) PLUGIN(pathTree) PLUGIN(directLighting)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

@@ -1,6 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/command_line.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+#include "tools/commands.h"
+
 namespace lampyris {
-int runCommandLine(int, char**) { return 2; }
+
+namespace {
+
+struct Command {
+  std::string_view name;
+  int (*run)(const Arguments&);
+};
+constexpr std::array kCommands = {
+    Command{"compare", runCompare},
+    Command{"convert", runConvert},
+    Command{"help-scene", runHelpScene},
+    Command{"info", runInfo},
+};
+
+int run(Arguments arguments) {
+  for (const Command& c : kCommands) {
+    if (arguments.empty() || arguments.front() != c.name) continue;
+    arguments.erase(arguments.begin());
+    return c.run(arguments);
+  }
+  return runRender(arguments);
+}
+
+int fail(int code, std::string_view message) {
+  fmt::print(stderr, "lampyris: error: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+  try {
+    return run(Arguments(argv + std::min(argc, 1), argv + argc));
+  } catch (const UsageError& e) {
+    return fail(kUsageError, fmt::format("{}\n(lampyris --help shows the usage)", e.what()));
+  } catch (const SceneError& e) {
+    return fail(kSceneError, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kIoError, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(kIoError, e.what());
+  }
+}
+
 }  // namespace lampyris

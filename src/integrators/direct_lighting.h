@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Direct lighting at a point: light sampling and BSDF sampling joined by multiple importance
+/// sampling (Veach 1997, chapter 9). A component of every integrator.
+#pragma once
+
+#include "base/integrator.h"
+#include "integrators/render_loop.h"
+
+namespace lampyris {
+
+enum class LightStrategy : uint8_t {
+  One,  ///< one light, drawn from a LightDistribution
+  All,  ///< every light, as many samples as it asks for
+};
+
+/// Both techniques see each other through the expected number of draws times the density, so that a
+/// light is weighed alike from either side however often it is sampled.
+class DirectLighting {
+ public:
+  /// Cheap. `distribution` is used by LightStrategy::One and may be null if there are no lights.
+  DirectLighting(const Scene& scene, LightStrategy strategy, const LightDistribution* distribution);
+
+  /// False: light sampling is pointless.
+  bool hasLights() const { return lightCount_ > 0; }
+  /// False: no ray ever finds light.
+  bool hasVisibleLights() const { return visible_; }
+  /// How many dimensions lightSamples() takes; even.
+  uint32_t lightDimensions() const { return lightDimensions_; }
+  /// The same of bsdfSamples(); even.
+  uint32_t bsdfDimensions() const { return 4 * static_cast<uint32_t>(bsdfDraws_); }
+
+  /// The part of the light scattered at `at` towards at.wo that light sampling accounts for. Takes
+  /// its numbers from stream.dimension() on. at.bsdf must be set; `time` is that of the rays.
+  Rgb lightSamples(const LightSampleContext& at, float time, SampleStream& stream,
+                   RayCounts& rays) const;
+  /// The other part, by rays of its own: for integrators whose paths end here.
+  Rgb bsdfSamples(const LightSampleContext& at, float time, SampleStream& stream,
+                  RayCounts& rays) const;
+
+  /// Radiance that a ray which left `from` with a non-specular BSDF sample of density `bsdfPdf`
+  /// finds at `hit` (an emitter), times the weight of that technique.
+  Rgb foundAtHit(const LightSampleContext& from, float bsdfPdf,
+                 const SurfaceInteraction& hit) const;
+  /// The same where it leaves the scene in direction `d`.
+  Rgb foundOutside(const LightSampleContext& from, float bsdfPdf, const Vec3& d) const;
+  /// Radiance from outside, unweighed: camera and specular rays.
+  Rgb outside(const Vec3& d) const;
+
+ private:
+  /// How often lightSamples() draws the light, on average.
+  float expectedDraws(const LightSampleContext& at, LightId light) const;
+  Rgb lightSample(const LightSampleContext& at, float time, const SampledLight& chosen,
+                  const Vec2& u, RayCounts& rays) const;
+  float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
+                   float lightPdf) const;
+  bool occluded(const LightSampleContext& at, float time, const LightSample& light) const;
+
+  const Scene& scene_;
+  const LightStrategy strategy_;
+  const LightDistribution* const distribution_;
+  const uint32_t lightCount_;
+  bool visible_ = false;
+  int bsdfDraws_ = 1;
+  uint32_t lightDimensions_ = 4;
+};
+
+}  // namespace lampyris

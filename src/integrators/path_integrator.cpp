@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path tracing with next-event estimation (Kajiya 1986; Veach 1997). The image is pbrt-v3's "path"
+// in expectation. Where that traces a ray of its own for the BSDF half of multiple importance
+// sampling, here the path's next ray serves: one ray less a vertex, and the light that it finds is
+// weighed whichever light was drawn. Cost a vertex: one shadow ray, one ray.
+#include "integrators/path_integrator.h"
+
+#include "integrators/direct_lighting.h"
+
+namespace lampyris {
+
+namespace {
+
+/// Numbers a vertex takes: light (1), point on it (2), direction (2), lobe (1), roulette (1), and
+/// one left out so that pairs keep even dimensions.
+constexpr uint32_t kDimensionsPerVertex = 8;
+constexpr uint32_t kRouletteOffset = 6;
+constexpr int kFirstRouletteBounce = 4;
+/// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
+constexpr int kMaxInterfaces = 1000;
+
+class PathEstimator final : public RadianceEstimator {
+ public:
+  PathEstimator(const Scene& scene, const PathSettings& settings,
+                const LightDistribution* distribution)
+      : geometry_(*scene.geometry),
+        lighting_(scene, LightStrategy::One, distribution),
+        maxDepth_(settings.maxDepth),
+        rrThreshold_(settings.rrThreshold) {}
+
+  Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
+
+ private:
+  struct Path;
+  Rgb emission(const Path& path, const SurfaceInteraction& at) const;
+  bool scatter(Path& path, SurfaceInteraction& at, const Material& material, SampleStream& stream,
+               RenderState& state) const;
+  bool survives(Path& path, SampleStream& stream) const;
+
+  const Geometry& geometry_;
+  const DirectLighting lighting_;
+  const int maxDepth_;
+  const float rrThreshold_;
+};
+
+struct PathEstimator::Path {
+  Ray ray;
+  const RayDifferential* differential;  ///< null after the first surface
+  Rgb radiance{}, throughput{1};
+  /// Undoes the change of radiance by refraction, so that roulette does not end paths for it.
+  float etaScale = 1;
+  int bounces = 0, interfaces = 0;
+  /// Set where light sampling at the last vertex could have found what the ray finds: `from` and
+  /// `bsdfPdf` then say with which densities.
+  bool weighed = false;
+  /// As in pbrt-v3, light behind an interface does not reach a vertex that is not specular: shadow
+  /// rays are blocked by it, so emission found beyond must not count either.
+  bool blind = false;
+  LightSampleContext from{};
+  float bsdfPdf = 0;
+};
+
+Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
+                            RenderState& state) const {
+  Path path{camera.ray, &camera.differential};
+  while (true) {
+    ++state.rays.closest;
+    const auto hit = geometry_.intersect(path.ray);
+    if (!hit) {
+      if (!path.blind)
+        path.radiance += path.throughput *
+                         (path.weighed ? lighting_.foundOutside(path.from, path.bsdfPdf, path.ray.d)
+                                       : lighting_.outside(path.ray.d));
+      break;
+    }
+    const Primitive& primitive = geometry_.primitive(*hit);
+    const bool last = path.bounces >= maxDepth_;
+    if (last && !primitive.light) break;
+    const Material* material = primitive.material;
+    const bool footprint = path.differential && material && material->wantsDifferentials();
+    SurfaceInteraction at = geometry_.surface(path.ray, *hit,
+                                              footprint  ? SurfaceDetail::Full
+                                              : material ? material->detail()
+                                                         : SurfaceDetail::Basic);
+    if (primitive.light && !path.blind) path.radiance += emission(path, at);
+    if (last) break;
+    if (!material) {
+      if (++path.interfaces > kMaxInterfaces) break;
+      path.blind = path.weighed;
+      path.differential = nullptr;
+      path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);
+      continue;
+    }
+    if (!survives(path, stream)) break;
+    if (footprint) at.computeDifferentials(*path.differential);
+    if (!scatter(path, at, *material, stream, state)) break;
+  }
+  return path.radiance;
+}
+
+Rgb PathEstimator::emission(const Path& path, const SurfaceInteraction& at) const {
+  return path.throughput * (path.weighed ? lighting_.foundAtHit(path.from, path.bsdfPdf, at)
+                                         : at.primitive->light->emitted(at, at.wo));
+}
+
+/// Russian roulette with the probabilities of pbrt-v3, but after the emission at the new vertex has
+/// been added: the same expectation with less noise.
+bool PathEstimator::survives(Path& path, SampleStream& stream) const {
+  if (path.bounces <= kFirstRouletteBounce) return true;
+  const float most = path.throughput.maxComponent() * path.etaScale;
+  if (!(most < rrThreshold_)) return true;
+  const float end = std::max(0.05f, 1 - most);
+  stream.setDimension(kFirstPathDimension +
+                      static_cast<uint32_t>(path.bounces) * kDimensionsPerVertex + kRouletteOffset);
+  if (stream.next1D() < end) return false;
+  path.throughput /= 1 - end;
+  return true;
+}
+
+/// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
+bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& material,
+                            SampleStream& stream, RenderState& state) const {
+  Bsdf& bsdf = state.bsdf;
+  material.evaluate(at, bsdf);
+  if (bsdf.empty()) return false;
+  const uint32_t first =
+      kFirstPathDimension + static_cast<uint32_t>(path.bounces) * kDimensionsPerVertex;
+  stream.setDimension(first);
+  if (lighting_.hasLights() && !bsdf.isSpecular()) {
+    path.from = LightSampleContext(at, bsdf);
+    path.radiance +=
+        path.throughput * lighting_.lightSamples(path.from, path.ray.time, stream, state.rays);
+  }
+  // Where rays find no light, the last one need not be traced.
+  if (path.bounces + 1 >= maxDepth_ && !lighting_.hasVisibleLights()) return false;
+
+  stream.setDimension(first + 3);
+  const Vec2 u = stream.next2D();
+  const auto s = bsdf.sample(at.wo, stream.next1D(), u);
+  if (!s || !(s->pdf > 0) || s->f.isBlack()) return false;
+  path.throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
+  if (path.throughput.isBlack()) return false;
+  if (s->isTransmission()) path.etaScale *= sqr(s->eta);
+  path.weighed = !s->isSpecular();
+  path.blind = false;
+  path.bsdfPdf = s->pdf;
+  path.differential = nullptr;
+  path.interfaces = 0;
+  path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, s->wi);
+  path.ray.d = s->wi;
+  path.ray.tMax = kInfinity;
+  ++path.bounces;
+  return true;
+}
+
+class PathIntegrator final : public Integrator {
+ public:
+  PathIntegrator(const PathSettings& settings, std::unique_ptr<LightDistribution> distribution)
+      : settings_(settings), distribution_(std::move(distribution)) {}
+
+  uint64_t render(RenderContext& context) const override {
+    const PixelBounds pixels =
+        renderedPixels(context.film, settings_.pixelBounds, settings_.location);
+    const PathEstimator estimator(context.scene, settings_, distribution_.get());
+    return renderPasses(context, pixels, estimator);
+  }
+
+ private:
+  const PathSettings settings_;
+  const std::unique_ptr<LightDistribution> distribution_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makePathIntegrator(const PathSettings& settings,
+                                               std::unique_ptr<LightDistribution> distribution) {
+  return std::make_unique<PathIntegrator>(settings, std::move(distribution));
+}
+
+}  // namespace lampyris

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The loop over passes, tiles, pixels and samples that all path-like integrators share.
+#pragma once
+
+#include <vector>
+
+#include "base/bsdf.h"
+#include "base/integrator.h"
+
+namespace lampyris {
+
+/// Rays traced; counted locally and added up once a tile.
+struct RayCounts {
+  uint64_t closest = 0;  ///< nearest-hit queries
+  uint64_t shadow = 0;   ///< occlusion queries
+
+  RayCounts& operator+=(const RayCounts& o) {
+    return closest += o.closest, shadow += o.shadow, *this;
+  }
+};
+
+/// What a thread keeps from sample to sample, so that a sample allocates and clears nothing large.
+struct RenderState {
+  Bsdf bsdf;
+  RayCounts rays;
+};
+
+/// Estimates the radiance that arrives along a camera ray. Thread-safe.
+class RadianceEstimator {
+ public:
+  virtual ~RadianceEstimator() = default;
+  /// One estimate, a pure function of the arguments. `stream` stands at kFirstPathDimension.
+  virtual Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const = 0;
+};
+
+/// Dimensions 0–1 are the position on the film, 2–3 on the lens, 4 the time. The first one left is
+/// odd: with one number before each pair, pairs start at even dimensions.
+inline constexpr uint32_t kFirstPathDimension = 5;
+
+/// The pixels that the film and an integrator's parameter "pixelbounds" (x0 x1 y0 y1, empty: all)
+/// have in common. Throws SceneError if there are none or the list is not four numbers.
+PixelBounds renderedPixels(const Film& film, const std::vector<int>& pixelBounds,
+                           SourceLocation location);
+
+/// Renders the samples of all pixels up to the count or time that the options want. Every pixel
+/// goes on from the number of samples that the film has of it. Returns the number of samples that
+/// all pixels have at the end.
+uint64_t renderPasses(RenderContext& context, const PixelBounds& pixels,
+                      const RadianceEstimator& estimator);
+
+}  // namespace lampyris

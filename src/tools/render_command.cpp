@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+
+#include "core/parallel.h"
+#include "tools/checkpoint.h"
+#include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "tools/outputs.h"
+#include "tools/pixel_probe.h"
+#include "tools/progress.h"
+#include "tools/render_settings.h"
+#include "tools/run_report.h"
+
+namespace lampyris {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One scene file from its text to its images.
+class RenderSession {
+ public:
+  RenderSession(const RenderSettings& settings, std::string scene)
+      : settings_(settings),
+        scene_(std::move(scene)),
+        diagnostics_(files_, [this](const std::string& text) {
+          if (!settings_.quiet) fmt::print(stderr, "{}\n", text);
+        }) {}
+
+  /// Prints scene errors itself, since only it can tell their places; returns the exit code.
+  int run();
+
+ private:
+  std::unique_ptr<RenderJob> load(const BuildOptions& options);
+  void loadJob();
+  void resume();
+  uint64_t fingerprint() const;
+  RenderOptions renderOptions();
+  void renderImage(const Outputs& outputs);
+  void renderPixel();
+  void passDone(const RenderProgress& progress);
+  void saveCheckpoint(uint64_t nextSample);
+  uint64_t render(Film& film, const RenderOptions& options);
+  ImageMetadata metadata(uint64_t samples) const;
+
+  const RenderSettings& settings_;
+  const std::string scene_;
+  std::string standardInput_;
+  SourceFiles files_;
+  Statistics statistics_;
+  Diagnostics diagnostics_;
+  std::unique_ptr<RenderJob> job_;
+  RunReport report_;
+  uint64_t firstSample_ = 0;
+  uint64_t fingerprint_ = 0;
+  double lastCheckpoint_ = 0;
+};
+
+std::unique_ptr<RenderJob> RenderSession::load(const BuildOptions& options) {
+  return scene_ == "-"
+             ? loadSceneText(standardInput_, ".", options, files_, diagnostics_, statistics_)
+             : loadScene(scene_, options, files_, diagnostics_, statistics_);
+}
+
+void RenderSession::loadJob() {
+  if (scene_ == "-")
+    standardInput_.assign(std::istreambuf_iterator<char>(std::cin),
+                          std::istreambuf_iterator<char>());
+  job_ = load(settings_.build);
+  if (!settings_.quick) return;
+  // The film's size is known only once the scene has been read.
+  const Int2 size = glm::max(job_->film->resolution() / 4, Int2(1));
+  BuildOptions options = settings_.build;
+  options.overrides.emplace_back("film.xresolution", std::to_string(size.x));
+  options.overrides.emplace_back("film.yresolution", std::to_string(size.y));
+  if (options.samplesPerPixel == 0) options.samplesPerPixel = 1;
+  job_ = load(options);
+}
+
+/// Of all that decides a sample's value; not of the number of samples, which may be raised.
+uint64_t RenderSession::fingerprint() const {
+  Fingerprint f;
+  for (size_t i = 0; i < files_.count(); ++i) f.add(files_.text(static_cast<uint16_t>(i)));
+  for (const auto& [name, value] : settings_.build.overrides) f.add(name), f.add(value);
+  f.add(settings_.build.seed);
+  f.add(settings_.quick ? 1 : 0);
+  for (const float c : settings_.build.cropWindow) f.add(std::bit_cast<uint32_t>(c));
+  return f.value();
+}
+
+void RenderSession::resume() {
+  const Checkpoint c = readCheckpoint(settings_.resume);
+  if (c.fingerprint != fingerprint_)
+    throw IoError(
+        fmt::format("checkpoint \"{}\" is of another scene or of other options (-D, --seed, "
+                    "--crop, --quick); use those of the interrupted run",
+                    settings_.resume));
+  if (!job_->film->restore(c.film))
+    throw IoError(fmt::format("checkpoint \"{}\" is of another film", settings_.resume));
+  firstSample_ = c.nextSample;
+}
+
+RenderOptions RenderSession::renderOptions() {
+  RenderOptions o;
+  o.firstSample = firstSample_;
+  o.sampleCount =
+      static_cast<uint64_t>(settings_.build.samplesPerPixel > 0 ? settings_.build.samplesPerPixel
+                                                                : job_->sampler->samplesPerPixel());
+  o.seconds = settings_.seconds;
+  o.cancel = &interruptFlag();
+  return o;
+}
+
+ImageMetadata RenderSession::metadata(uint64_t samples) const {
+  // Nothing that differs between two runs of the same render: images are compared bit for bit.
+  return {{"software", "Lampyris"},
+          {"samplesPerPixel", std::to_string(samples)},
+          {"seed", std::to_string(settings_.build.seed)}};
+}
+
+void RenderSession::saveCheckpoint(uint64_t nextSample) {
+  if (settings_.checkpoint.empty()) return;
+  writeCheckpoint(settings_.checkpoint, {fingerprint_, nextSample, job_->film->save()});
+}
+
+uint64_t RenderSession::render(Film& film, const RenderOptions& options) {
+  RenderContext context{job_->scene, *job_->camera, *job_->sampler, film, options, statistics_};
+  const auto start = std::chrono::steady_clock::now();
+  const uint64_t samples = job_->integrator->render(context);
+  report_.renderSeconds = secondsSince(start);
+  report_.interrupted = interruptFlag();
+  return samples;
+}
+
+void RenderSession::renderImage(const Outputs& initial) {
+  Outputs outputs = initial;
+  ProgressLine line(settings_.quiet);
+  RenderOptions options = renderOptions();
+  options.onProgress = [&](const RenderProgress& p) { line.update(p); };
+  options.onPass = [&](const RenderProgress& p) {
+    if (line.wantsNoise(p.seconds)) line.setNoise(job_->film->noise(), p.seconds);
+    line.update(p);
+    if (p.seconds - lastCheckpoint_ >= settings_.checkpointInterval) {
+      saveCheckpoint(p.samplesDone);
+      lastCheckpoint_ = p.seconds;
+    }
+    outputs.writePartial(*job_->film, metadata(p.samplesDone), p.seconds);
+  };
+  const uint64_t samples = render(*job_->film, options);
+  line.clear();
+  saveCheckpoint(samples);
+  outputs.write(*job_->film, metadata(samples));
+  report_.noise = job_->film->noise();
+}
+
+void RenderSession::renderPixel() {
+  const PixelBounds bounds = job_->film->bounds();
+  if (!bounds.contains(*settings_.pixel))
+    throw UsageError(fmt::format("--pixel: the image has pixels {},{} to {},{}", bounds.min.x,
+                                 bounds.min.y, bounds.max.x - 1, bounds.max.y - 1));
+  PixelProbe probe(*job_->film, *settings_.pixel);
+  render(probe, renderOptions());
+  fmt::print("{}", probe.report(settings_.verbose));
+}
+
+int RenderSession::run() {
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    loadJob();
+    report_.scene = scene_;
+    report_.loadSeconds = secondsSince(start);
+    if (settings_.pixel) {
+      renderPixel();
+    } else {
+      const Outputs outputs(settings_.outputs, *job_->film);
+      if (!settings_.checkpoint.empty()) fingerprint_ = fingerprint();
+      if (!settings_.resume.empty()) resume();
+      renderImage(outputs);
+      if (!settings_.quiet)
+        fmt::print(stderr, "{}: {}\n", scene_, fmt::join(outputs.paths(), ", "));
+    }
+    report_.warnings = diagnostics_.warnings();
+    if (!settings_.quiet)
+      fmt::print(stderr, "{}", summary(report_, statistics_, settings_.verbose));
+    if (!settings_.statistics.empty()) writeStatistics(settings_.statistics, report_, statistics_);
+    return report_.interrupted ? kInterrupted : kDone;
+  } catch (const SceneError& e) {
+    fmt::print(stderr, "{}\n", formatMessage(files_, e.location, "error", e.what()));
+    return kSceneError;
+  }
+}
+
+}  // namespace
+
+int runRender(const Arguments& arguments) {
+  const auto settings = parseRenderSettings(arguments);
+  if (!settings) return kDone;
+  interruptFlag();
+  const ThreadLimit threads(settings->threads);
+  for (const std::string& scene : settings->scenes) {
+    const int code = RenderSession(*settings, scene).run();
+    if (code != kDone) return code;
+  }
+  return kDone;
+}
+
+}  // namespace lampyris

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/render_settings.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+namespace lampyris {
+
+namespace {
+
+constexpr const char* kFooter = R"(
+Subcommands (each with --help):
+  compare A B        how far an image is from a reference
+  convert A B        an image in another format
+  info FILE          what an image file holds
+  help-scene [KIND [NAME]]
+                     what scene files may say
+
+Exit codes: 0 done, 1 scene error, 2 usage, 3 input, output or memory, 130 interrupted.)";
+
+/// "x,y".
+Int2 parsePixel(const std::string& text) {
+  Int2 p{0};
+  const char* const end = text.data() + text.size();
+  const auto x = std::from_chars(text.data(), end, p.x);
+  if (x.ec == std::errc() && x.ptr != end && *x.ptr == ',') {
+    const auto y = std::from_chars(x.ptr + 1, end, p.y);
+    if (y.ec == std::errc() && y.ptr == end) return p;
+  }
+  throw UsageError(fmt::format("--pixel: expected x,y, got \"{}\"", text));
+}
+
+std::pair<std::string, std::string> parseDefine(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError(fmt::format(
+        "-D: expected kind.parameter=value or kind=plugin, e.g. integrator.maxdepth=3, got \"{}\"",
+        text));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// Turns "--crop 0,1,0,1" into four arguments, as pbrt-v3 scripts write them either way.
+Arguments splitCrop(const Arguments& arguments) {
+  Arguments out;
+  bool value = false;
+  for (const std::string& a : arguments) {
+    const std::string name = a.substr(0, a.find('='));
+    const bool crop = name == "--crop" || name == "--cropwindow" || name == "-cropwindow";
+    if (crop && name.size() < a.size()) {
+      out.push_back(name);
+    } else if (!value || crop) {
+      out.push_back(a);
+      value = crop;
+      continue;
+    }
+    const std::string list = crop ? a.substr(name.size() + 1) : a;
+    value = false;
+    for (size_t at = 0; at <= list.size();) {
+      const size_t comma = std::min(list.find(',', at), list.size());
+      out.push_back(list.substr(at, comma - at));
+      at = comma + 1;
+    }
+  }
+  return out;
+}
+
+void check(const RenderSettings& s, bool cat, bool toPly) {
+  if (cat || toPly)
+    throw UsageError(fmt::format("{} is not available yet", cat ? "--cat" : "--toply"));
+  if (s.scenes.empty()) throw UsageError("expected a scene file (or - for standard input)");
+  const bool single = s.pixel || !s.resume.empty() || !s.checkpoint.empty() ||
+                      !s.statistics.empty() || !s.outputs.empty();
+  if (s.scenes.size() > 1 && single)
+    throw UsageError("--out, --pixel, --stats, --checkpoint and --resume need a single scene file");
+  if (s.pixel && !(s.resume.empty() && s.checkpoint.empty()))
+    throw UsageError("--pixel renders no image that could be resumed");
+  const auto& c = s.build.cropWindow;
+  if (!c.empty() && !(c[0] < c[1] && c[2] < c[3]))
+    throw UsageError("--crop: expected x0 x1 y0 y1 with x0 < x1 and y0 < y1");
+}
+
+}  // namespace
+
+std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
+  RenderSettings s;
+  std::string pixel;
+  std::vector<std::string> defines;
+  bool cat = false, toPly = false;
+  CLI::App app("Lampyris renders pbrt-v3 scene files.", "lampyris");
+  app.footer(kFooter);
+  app.add_option("scene", s.scenes, "Scene files; - is standard input");
+  app.add_option("--spp", s.build.samplesPerPixel, "Samples a pixel")
+      ->check(CLI::Range(1, 1 << 30));
+  app.add_option("--seconds", s.seconds, "Render for this long, whatever the number of samples")
+      ->check(CLI::PositiveNumber);
+  app.add_option("-o,--out,--outfile", s.outputs,
+                 "Image to write (.exr, .png, .pfm …); may be given several times")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--threads,--nthreads", s.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+  app.add_option("--seed", s.build.seed, "Seed of the sampler");
+  app.add_option("--crop,--cropwindow", s.build.cropWindow,
+                 "Part of the image to render: x0 x1 y0 y1 in [0, 1]")
+      ->expected(4)
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0., 1.));
+  app.add_option("--pixel", pixel, "Render only pixel x,y and print it; --verbose: each sample");
+  app.add_option("--checkpoint", s.checkpoint, "File to save the state in now and then");
+  app.add_option("--checkpoint-interval", s.checkpointInterval, "Seconds between checkpoints")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--resume", s.resume,
+                 "Checkpoint to go on from (and to update, without --checkpoint)");
+  app.add_option("--stats", s.statistics, "JSON file for the statistics");
+  app.add_option(
+         "-D,--define", defines,
+         "kind.parameter=value or kind=plugin: overrides the scene's integrator, sampler, film, "
+         "camera, filter or lightsampler")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--quick", s.quick, "A quarter of the resolution, one sample a pixel");
+  app.add_flag("-q,--quiet", s.quiet, "Only errors");
+  app.add_flag("-v,--verbose", s.verbose, "All statistics");
+  app.add_flag("--cat", cat, "(pbrt-v3) print the scene");
+  app.add_flag("--toply", toPly, "(pbrt-v3) print the scene, meshes as PLY files");
+  if (parseArguments(app, splitCrop(arguments))) return std::nullopt;
+  if (!pixel.empty()) s.pixel = parsePixel(pixel);
+  for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));
+  check(s, cat, toPly);
+  if (s.checkpoint.empty()) s.checkpoint = s.resume;
+  return s;
+}
+
+}  // namespace lampyris

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the command line wants of a render.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "scene/builder.h"
+#include "tools/arguments.h"
+
+namespace lampyris {
+
+struct RenderSettings {
+  std::vector<std::string> scenes;  ///< "-": standard input
+  std::vector<std::string> outputs;
+  BuildOptions build;
+  double seconds = 0;  ///< > 0: render for this long
+  int threads = 0;     ///< 0: all
+  std::optional<Int2> pixel;
+  std::string resume, checkpoint, statistics;
+  double checkpointInterval = 60;
+  bool quiet = false, verbose = false, quick = false;
+};
+
+/// None where there is nothing to render (--help): the exit code is then 0. Throws UsageError.
+std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments);
+
+}  // namespace lampyris

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path tracing against itself: settings that must not change the expected image, and rules of
+// pbrt-v3 that must hold.
+#include <gtest/gtest.h>
+
+#include "lightdistributions/registry.h"
+#include "support/statistics.h"
+#include "support/tiny_scenes.h"
+
+namespace lampyris::test {
+
+namespace {
+
+/// A room with two emitters, a point light, matte and glossy surfaces.
+const std::string kRoom =
+    "LightSource \"point\" \"point from\" [0.5 0.5 1] \"rgb I\" [0.4 0.4 0.4]\n"
+    "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [4 4 4]\nTranslate -0.5 0.2 1.5\n"
+    "Rotate 180 1 0 0\n" +
+    square(0.3f) +
+    "AttributeEnd\n"
+    "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [20 20 20]\nTranslate 0.6 -0.4 0.5\n"
+    "Shape \"sphere\" \"float radius\" 0.05\nAttributeEnd\n" +
+    matte(0.7f) + square(2) + "AttributeBegin\nTranslate 0 0 2\n" + square(2) +
+    "AttributeEnd\n"
+    "Material \"plastic\" \"float roughness\" 0.1\n"
+    "AttributeBegin\nTranslate -0.2 -0.3 0.3\nShape \"sphere\" \"float radius\" "
+    "0.3\nAttributeEnd\n";
+
+TinyView roomView(const std::string& integrator) {
+  TinyView v;
+  v.integrator = integrator;
+  v.lookAt = "0 -1.8 1  0 0 0.6  0 0 1";
+  v.camera = R"("perspective" "float fov" 60)";
+  v.resolution = 16;
+  return v;
+}
+
+/// The pixels of two renders with different seeds differ by noise only.
+void expectSameMean(const std::string& a, const std::string& b, const std::string& world,
+                    uint64_t samples) {
+  TinyScene one(tinyScene(roomView(a), world));
+  BuildOptions otherSeed;
+  otherSeed.seed = 77;
+  TinyScene two(tinyScene(roomView(b), world), otherSeed);
+  one.render(samples);
+  two.render(samples);
+  std::vector<double> difference = one.greens();
+  const auto other = two.greens();
+  double mean = 0;
+  for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i], mean += other[i];
+  EXPECT_GT(mean, 0);
+  EXPECT_EQ(meanTest(difference, 0), "") << a << " against " << b;
+}
+
+TEST(Path, EqualsDirectLightingAtDepthOne) {
+  const std::string path = R"("path" "integer maxdepth" 1)";
+  expectSameMean(path, R"("directlighting" "integer maxdepth" 1)", kRoom, 128);
+  expectSameMean(path, R"("directlighting" "integer maxdepth" 1 "string strategy" "one")", kRoom,
+                 128);
+}
+
+TEST(Path, RouletteIsUnbiased) {
+  expectSameMean(R"("path" "integer maxdepth" 12 "float rrthreshold" 1)",
+                 R"("path" "integer maxdepth" 12 "float rrthreshold" 0)", kRoom, 64);
+}
+
+TEST(Path, LightSamplersAgree) {
+  const std::string first = lightDistributionRegistry().entries().front().name;
+  for (const auto& entry : lightDistributionRegistry().entries())
+    expectSameMean("\"path\" \"string lightsampler\" \"" + first + "\"",
+                   "\"path\" \"string lightsampler\" \"" + entry.name + "\"", kRoom, 64);
+}
+
+TEST(Path, PathTreeIsPathWithTheTree) {
+  TinyScene tree(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "1.0")"), kRoom));
+  TinyScene path(tinyScene(roomView(R"("path" "string lightsampler" "bvh")"), kRoom));
+  tree.render(4);
+  path.render(4);
+  EXPECT_EQ(tree.film().save(), path.film().save());
+  EXPECT_EQ(tree.warnings(), "");
+  TinyScene split(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "0.5")"), kRoom));
+  EXPECT_NE(split.warnings().find("does not split"), std::string::npos) << split.warnings();
+  EXPECT_THROW(
+      TinyScene(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "1.5")"), kRoom)),
+      SceneError);
+  TinyScene(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "uniform")"), kRoom));
+}
+
+/// Mean of a view from above on a plane, with `between` at z = 1.
+double planeUnder(const std::string& light, const std::string& between, const std::string& plane) {
+  TinyView view;
+  view.integrator = R"("path" "integer maxdepth" 4)";
+  TinyScene scene(tinyScene(view, light + "AttributeBegin\nTranslate 0 0 1\nMaterial \"\"\n" +
+                                      between + "AttributeEnd\n" + plane + square(0.5f)));
+  scene.render(16);
+  double sum = 0;
+  for (const double g : scene.greens()) sum += g;
+  return sum / static_cast<double>(scene.greens().size());
+}
+
+TEST(Path, InterfacesBlockLightButNotSight) {
+  const std::string lamp = "LightSource \"point\" \"point from\" [0 0 3] \"rgb I\" [9 9 9]\n";
+  const std::string sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
+  EXPECT_GT(planeUnder(lamp, "", matte(0.5f)), 0.1);
+  EXPECT_EQ(planeUnder(lamp, square(9), matte(0.5f)), 0);
+  // Emission found through an interface after a diffuse bounce does not count either …
+  const std::string dome = "Shape \"sphere\" \"float radius\" 3\n";
+  EXPECT_EQ(planeUnder(sky, dome, matte(0.5f)), 0);
+  // … but it does after a specular one, and the interface is no bounce.
+  EXPECT_NEAR(planeUnder(sky, dome, "Material \"mirror\" \"rgb Kr\" [1 1 1]\n"), 1, 1e-5);
+}
+
+TEST(Path, ManyInterfacesEnd) {
+  std::string many;
+  for (int i = 0; i < 50; ++i) many += square(9);
+  const std::string sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
+  const double seen = planeUnder(sky, many, "Material \"mirror\" \"rgb Kr\" [1 1 1]\n");
+  EXPECT_GE(seen, 0);
+  EXPECT_LE(seen, 1 + 1e-5);
+}
+
+TEST(Path, ScaleOfTheSceneDoesNotMatter) {
+  // Positions times s: emitters keep their radiance, so the image stays the same.
+  const auto furnaceMean = [](float scale) {
+    TinyView view;
+    view.integrator = R"("path" "integer maxdepth" 3)";
+    view.lookAt = "0 0 0  0 0 1  0 1 0";
+    view.camera = R"("perspective" "float fov" 90)";
+    const std::string s = std::to_string(scale);
+    TinyScene scene(tinyScene(view, matte(0.5f) + "Scale " + s + " " + s + " " + s +
+                                        "\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n"
+                                        "ReverseOrientation\nShape \"sphere\"\n"));
+    scene.render(64);
+    return scene.greens();
+  };
+  for (const float scale : {1e-4f, 1.f, 1e4f})
+    EXPECT_EQ(meanTest(furnaceMean(scale), 1.875, 2e-3), "") << scale;
+}
+
+}  // namespace
+
+}  // namespace lampyris::test
