@@ -10,10 +10,9 @@
 namespace lampyris {
 namespace {
 
-ChildProbabilities byIntensity(const LinearLightBVHNode* nodes, uint32_t parent) {
-  const double left = static_cast<double>(nodes[parent + 1].intensity());
-  const double right = static_cast<double>(nodes[nodes[parent].rightChild()].intensity());
-  return {left / (left + right), right / (left + right)};
+ChildImportances byIntensity(const LinearLightBVHNode* nodes, uint32_t parent) {
+  return {static_cast<double>(nodes[parent + 1].intensity()),
+          static_cast<double>(nodes[nodes[parent].rightChild()].intensity())};
 }
 
 float toFloat(double v) { return static_cast<float>(std::min(v, static_cast<double>(FLT_MAX))); }
@@ -27,8 +26,9 @@ double refineVariate(float u, const Vec3& p) {
 }
 
 bool chooseFirst(double first, double second, double& u) {
-  const bool takesFirst = second <= 0 || (first > 0 && u < first);
-  u = takesFirst ? u / first : (u - first) / second;
+  const double at = u * (first + second);
+  const bool takesFirst = second <= 0 || (first > 0 && at < first);
+  u = takesFirst ? at / first : (at - first) / second;
   if (!(u >= 0)) u = 0;
   if (!(u < 1)) u = 1 - DBL_EPSILON / 2;
   return takesFirst;
@@ -55,10 +55,10 @@ std::optional<SampledLight> LightBVHAccel::sample(const LightReceiver& at, doubl
   double pmf = 1;
   uint32_t i = 0;
   while (!nodes[i].isLeaf()) {
-    const auto [left, right] = childProbabilities(nodes, i, at);
-    if (!(left + right > 0)) return std::nullopt;
-    const bool goLeft = chooseFirst(left, right, u);
-    pmf *= goLeft ? left : right;
+    const ChildImportances children = childImportances(nodes, i, at);
+    if (!children.any()) return std::nullopt;
+    const bool goLeft = chooseFirst(children.left, children.right, u);
+    pmf *= children.probability(goLeft);
     i = goLeft ? i + 1 : nodes[i].rightChild();
   }
   return SampledLight{nodes[i].light(), static_cast<float>(pmf)};
@@ -72,9 +72,10 @@ float LightBVHAccel::pmf(const LightReceiver& at, LightId light) const {
   double pmf = 1;
   // Nodes lie depth first, so their numbers lead the way down.
   for (uint32_t i = 0; i != leaf;) {
-    const auto [left, right] = childProbabilities(nodes, i, at);
+    const ChildImportances children = childImportances(nodes, i, at);
+    if (!children.any()) return 0;
     const bool goLeft = leaf < nodes[i].rightChild();
-    pmf *= goLeft ? left : right;
+    pmf *= children.probability(goLeft);
     if (!(pmf > 0)) return 0;
     i = goLeft ? i + 1 : nodes[i].rightChild();
   }
@@ -89,9 +90,9 @@ SampledLight LightBVHAccel::sampleByIntensity(uint32_t node, double u) const {
   double pmf = 1;
   uint32_t i = node;
   while (!nodes_[i].isLeaf()) {
-    const auto [left, right] = byIntensity(nodes_.data(), i);
-    const bool goLeft = chooseFirst(left, right, u);
-    pmf *= goLeft ? left : right;
+    const ChildImportances children = byIntensity(nodes_.data(), i);
+    const bool goLeft = chooseFirst(children.left, children.right, u);
+    pmf *= children.probability(goLeft);
     i = goLeft ? i + 1 : nodes_[i].rightChild();
   }
   return {nodes_[i].light(), static_cast<float>(pmf)};
@@ -100,9 +101,8 @@ SampledLight LightBVHAccel::sampleByIntensity(uint32_t node, double u) const {
 float LightBVHAccel::pmfByIntensity(uint32_t node, uint32_t leaf) const {
   double pmf = 1;
   for (uint32_t i = node; i != leaf;) {
-    const auto [left, right] = byIntensity(nodes_.data(), i);
     const bool goLeft = leaf < nodes_[i].rightChild();
-    pmf *= goLeft ? left : right;
+    pmf *= byIntensity(nodes_.data(), i).probability(goLeft);
     i = goLeft ? i + 1 : nodes_[i].rightChild();
   }
   return static_cast<float>(pmf);

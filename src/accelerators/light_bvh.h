@@ -26,8 +26,8 @@ struct LightBVHInput {
 /// The new ones are a hash of the point and `u`, so that the draw stays a function of them.
 double refineVariate(float u, const Vec3& p);
 
-/// Takes the first of two alternatives with probability `first`, the other one with `second`
-/// (= 1 − first), and leaves a fresh variate in `u`. Never takes one of probability 0.
+/// Takes one of two alternatives with a probability in proportion to its weight, and leaves a fresh
+/// variate in `u`. Never takes one of weight 0; not both are.
 bool chooseFirst(double first, double second, double& u);
 
 /// Immutable and thread-safe once built.

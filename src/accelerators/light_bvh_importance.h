@@ -49,11 +49,11 @@ class LightReceiver {
   enum class Sides : uint8_t { None, One, Both, Free };
   /// Least factor of either cosine.
   static constexpr float kFloor = 1e-3f;
-  /// cos of max(0, θ − θb).
-  static float relax(float cosine, float sine, float cosB, float sinB) {
-    return cosine >= cosB ? 1.f : cosine * cosB + sine * sinB;
+  /// cos of max(0, θ − θb), by one square root for both sines.
+  static float relax(float cosine, float sine2, float cosB, float sine2B) {
+    return cosine >= cosB ? 1.f : cosine * cosB + std::sqrt(sine2 * sine2B);
   }
-  float receiverFactor(const Vec3& d, float invLength, float cosB, float sinB) const;
+  float receiverFactor(const Vec3& d, float invLength, float cosB, float sine2B) const;
 
   Vec3 p_;
   Vec3 side_{0}, ns_{0, 0, 1};
@@ -64,12 +64,11 @@ class LightReceiver {
 /// The cosine at the receiver. The BSDF tests sides by the geometric normal but weighs by
 /// |cos| of the shading normal; where the two disagree about the node, so does this.
 inline float LightReceiver::receiverFactor(const Vec3& d, float invLength, float cosB,
-                                           float sinB) const {
+                                           float sine2B) const {
   if (sides_ == Sides::Free) return 1;
   float cosine = dot(ns_, d) * invLength;
   if (sides_ == Sides::Both || (cosine < 0 && dot(side_, d) >= 0)) cosine = std::abs(cosine);
-  const float sine = std::sqrt(std::max(0.f, 1 - cosine * cosine));
-  return std::max(relax(cosine, sine, cosB, sinB), kFloor);
+  return std::max(relax(cosine, std::max(0.f, 1 - cosine * cosine), cosB, sine2B), kFloor);
 }
 
 inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
@@ -90,9 +89,8 @@ inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
 
   const float invLength = 1 / std::sqrt(d2);
   const float invSquared = invLength * invLength;
-  const float sin2B = std::min(r2 * invSquared, 1.f);
-  const float sinB = std::sqrt(sin2B), cosB = std::sqrt(1 - sin2B);
-  float factor = receiverFactor(d, invLength, cosB, sinB);
+  const float sine2B = std::min(r2 * invSquared, 1.f), cosB = std::sqrt(1 - sine2B);
+  float factor = receiverFactor(d, invLength, cosB, sine2B);
   if (!node.allNormals()) {
     const Vec3 axis = node.axis();
     const float scale = invLength / length(axis);
@@ -106,7 +104,7 @@ inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
     if (cosine < cosO) {  // θ > θo
       const float cosX = cosine * cosO + sine * sinO;
       sine = sine * cosO - cosine * sinO;
-      const float cosPrime = relax(cosX, sine, cosB, sinB);
+      const float cosPrime = relax(cosX, sine * sine, cosB, sine2B);
       if (cosPrime < cosE - 1e-5f) return 0;
       // Wide emission is no cosine any more: what its edge sends is anyone's guess.
       factor *= std::max(cosPrime, cosE < 0 ? 0.1f : kFloor);
@@ -116,22 +114,22 @@ inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
          static_cast<double>(invSquared);
 }
 
-/// Probabilities of the two children of an inner node; both 0 if neither can contribute.
-struct ChildProbabilities {
+/// Importances of the two children of an inner node; both 0 if neither can contribute.
+struct ChildImportances {
   double left, right;
+
+  bool any() const { return left + right > 0; }
+  double probability(bool ofLeft) const { return (ofLeft ? left : right) / (left + right); }
 };
 /// The one place that says them: sampling and pmf must agree to the last bit.
-inline ChildProbabilities childProbabilities(const LinearLightBVHNode* nodes, uint32_t parent,
-                                             const LightReceiver& at) {
+inline ChildImportances childImportances(const LinearLightBVHNode* nodes, uint32_t parent,
+                                         const LightReceiver& at) {
   const LinearLightBVHNode& l = nodes[parent + 1];
   const LinearLightBVHNode& r = nodes[nodes[parent].rightChild()];
   // The next level's nodes, whichever child it will be: their latency is most of a descent's time.
   __builtin_prefetch(&nodes[l.light()]);
   __builtin_prefetch(&nodes[r.light()]);
-  const double left = at.importance(l), right = at.importance(r);
-  const double sum = left + right;
-  if (!(sum > 0)) return {0, 0};
-  return {left / sum, right / sum};
+  return {at.importance(l), at.importance(r)};
 }
 
 }  // namespace lampyris

@@ -29,15 +29,10 @@ void SurfaceInteraction::computeDifferentials(const RayDifferential& d) {
 Vec3 offsetRayOrigin(const Vec3& p, const Vec3& pError, const Vec3& n, const Vec3& w) {
   // Twice the box: the ray tracer rounds as well.
   const float d = 2 * dot(glm::abs(n), pError);
-  Vec3 offset = d * n;
-  if (dot(w, n) < 0) offset = -offset;
-  Vec3 o = p + offset;
-  // Round away from p.
-  for (int i = 0; i < 3; ++i) {
-    if (offset[i] > 0) o[i] = nextFloatUp(o[i]);
-    if (offset[i] < 0) o[i] = nextFloatDown(o[i]);
-  }
-  return o;
+  const Vec3 offset = dot(w, n) < 0 ? -d * n : d * n;
+  const Vec3 o = p + offset;
+  // Away from p by what the sum may have been rounded.
+  return o + glm::sign(offset) * (2 * kMachineEpsilon * glm::abs(o));
 }
 
 }  // namespace lampyris

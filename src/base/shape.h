@@ -32,7 +32,6 @@ struct ShapeHit {
 struct ShapeSample {
   Vec3 p{0}, pError{0};
   Vec3 n{0, 0, 1};   ///< geometric normal, oriented as SurfaceInteraction::n
-  Vec2 uv{0};        ///< texture coordinates, as SurfaceInteraction::uv
   float pdf = 0;     ///< by area, or by solid angle: see the function that returned it
 };
 

@@ -26,9 +26,13 @@ inline bool isFinite(const Vec3& v) {
 }
 
 /// The unit vector along `v`; the zero vector where `v` has no direction (zero or not finite).
-/// Scaled by the largest component first, so that neither 1e-30 nor 1e+30 loses its direction.
+/// Neither 1e-30 nor 1e+30 loses its direction: where the square leaves the range of floats, the
+/// vector is scaled by its largest component first.
 inline Vec3 normalize(const Vec3& v) {
-  const float scale = std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+  const float square = dot(v, v);
+  if (square > 1e-30f && square < 1e30f) return v * (1 / std::sqrt(square));
+  const Vec3 a = glm::abs(v);
+  const float scale = std::max(a.x, std::max(a.y, a.z));
   if (!(scale > 0) || !isFinite(v)) return Vec3(0);
   const Vec3 w = v / scale;
   return w / length(w);

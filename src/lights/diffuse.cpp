@@ -34,9 +34,9 @@ class DiffuseAreaLight final : public Light {
     if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return std::nullopt;
     const Vec3 d = point->p - from;
     LightSample s;
-    s.wi = normalize(d);
     s.distance = length(d);
-    if (s.wi == Vec3(0) || !(s.distance > 0)) return std::nullopt;
+    if (!(s.distance > 0)) return std::nullopt;
+    s.wi = d / s.distance;
     s.radiance = emittedAt(point->n, -s.wi);
     if (s.radiance.isBlack()) return std::nullopt;
     s.pdf = point->pdf;

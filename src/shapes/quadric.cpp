@@ -149,7 +149,6 @@ ShapeSample Quadric::sampleAt(DVec2 uv) const {
   s.p = Vec3(toWorld(at.p));
   s.pError = worldError(at.p, s.p);
   s.n = worldNormal(at.n);
-  s.uv = Vec2(uv);
   return s;
 }
 

@@ -60,6 +60,8 @@ class Sphere final : public Quadric {
 
   double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
   bool full_;
+  DVec3 worldCentre_;
+  double worldRadius_;  ///< if the map keeps it a sphere
 };
 
 Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
@@ -69,6 +71,8 @@ Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
   zMax_ = std::clamp(std::max(z0, z1), -radius_, radius_);
   thetaMin_ = radius_ > 0 ? std::acos(std::clamp(zMin_ / radius_, -1., 1.)) : 0;
   thetaMax_ = radius_ > 0 ? std::acos(std::clamp(zMax_ / radius_, -1., 1.)) : 0;
+  worldCentre_ = toWorld(DVec3(0));
+  worldRadius_ = radius_ * similarity();
   full_ = zMin_ == -radius_ && zMax_ == radius_ && p.phiMax >= 360;
 
   Extent extent;
@@ -133,8 +137,8 @@ std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) cons
 
 std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
   if (!full_ || similarity() == 0) return std::nullopt;
-  const double r = radius_ * similarity();
-  const DVec3 toCentre = toWorld(DVec3(0)) - DVec3(from);
+  const double r = worldRadius_;
+  const DVec3 toCentre = worldCentre_ - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
   if (!(d2 > r * r) || !std::isfinite(d2)) return std::nullopt;
   const double sin2 = r * r / d2, d = std::sqrt(d2);
@@ -151,17 +155,21 @@ std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3
   // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
   // centre: α = asin(sin θ / sin θmax) − θ.
   const double h = static_cast<double>(u.x) * cone->oneMinusCos;
-  const double sin2Theta = h * (2 - h), sinMax = std::sqrt(cone->sin2);
-  const double ratio2 = std::min(1., sin2Theta / cone->sin2);
-  const double cosAlpha = sin2Theta / sinMax + (1 - h) * std::sqrt(1 - ratio2);
-  const double sinAlpha = std::sqrt(ratio2) * (1 - h) - std::sqrt(sin2Theta * (1 - ratio2));
-  const double phi = 2 * M_PI * static_cast<double>(u.y);
-  const Frame frame = Frame::fromZ(normalize(Vec3(-cone->axis)));
-  // The frame is good to float precision, which turns the draw as a whole by that much.
-  const DVec3 n = sinAlpha * std::cos(phi) * DVec3(frame.x) +
-                  sinAlpha * std::sin(phi) * DVec3(frame.y) - cosAlpha * cone->axis;
-  const DVec3 object = glm::transpose(matrix()) * glm::normalize(n);
-  ShapeSample s = sampleAt(parametersOf(object * (radius_ / glm::length(object))));
+  const double sin2Theta = h * (2 - h);
+  const double ratio2 = std::min(1., sin2Theta / cone->sin2), rest = std::sqrt(1 - ratio2);
+  const double cosAlpha = std::sqrt(ratio2 * sin2Theta) + (1 - h) * rest;
+  const double sinAlpha = std::sqrt(ratio2) * (1 - h) - std::sqrt(sin2Theta) * rest;
+  const float phi = 2 * kPi * u.y;
+  const Frame frame = Frame::fromZ(Vec3(-cone->axis));
+  // Azimuth and frame are good to float precision, which turns the draw as a whole by that much.
+  const DVec3 across(std::cos(phi) * frame.x + std::sin(phi) * frame.y);
+  const DVec3 n = glm::normalize(sinAlpha * across - cosAlpha * cone->axis);
+  ShapeSample s;
+  // Through the map itself, which may be off from a similarity by its rounding.
+  const DVec3 object = radius_ * glm::normalize(glm::transpose(matrix()) * n);
+  s.p = Vec3(toWorld(object));
+  s.pError = worldError(object, s.p);
+  s.n = orientation() * Vec3(n);
   s.pdf = pdf;
   return s;
 }
@@ -171,7 +179,7 @@ float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
   const auto cone = coneFrom(from);
   if (!cone) return Shape::pdfSolidAngle(element, from, p, n);
   // The far side is never drawn. On the silhouette rounding of p decides nothing.
-  const DVec3 fromCentre = DVec3(p) - toWorld(DVec3(0)), back = DVec3(from) - DVec3(p);
+  const DVec3 fromCentre = DVec3(p) - worldCentre_, back = DVec3(from) - DVec3(p);
   const double tolerance = 8 * static_cast<double>(kMachineEpsilon) *
                            (glm::length(DVec3(p)) + glm::length(fromCentre)) * cone->distance;
   if (glm::dot(fromCentre, back) < -tolerance) return 0;

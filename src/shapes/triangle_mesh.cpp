@@ -18,8 +18,8 @@ DVec3 areaNormal(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
 }
 
 Vec3 unit(const DVec3& v) {
-  const double l = glm::length(v);
-  return l > 0 ? Vec3(v / l) : Vec3(0);
+  const double square = glm::dot(v, v);
+  return square > 0 ? Vec3(v * (1 / std::sqrt(square))) : Vec3(0);
 }
 
 Vec3 finiteOrZero(const Vec3& v) { return isFinite(v) ? v : Vec3(0); }
@@ -38,8 +38,9 @@ struct UvSolver {
     // Relative to its terms: below this the differences of the floats say nothing of it.
     degenerate = !(std::abs(determinant) > 1e-7 * (std::abs(a.x * b.y) + std::abs(a.y * b.x)));
     if (degenerate) return;
-    u = {b.y / determinant, -a.y / determinant};
-    v = {-b.x / determinant, a.x / determinant};
+    const double inverse = 1 / determinant;
+    u = glm::dvec2(b.y, -a.y) * inverse;
+    v = glm::dvec2(-b.x, a.x) * inverse;
   }
   Vec3 byU(const Vec3& d02, const Vec3& d12) const {
     return Vec3(u.x * DVec3(d02) + u.y * DVec3(d12));
@@ -143,9 +144,11 @@ void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray
     out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
     out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
   }
-  const Vec3 across = cross(normalize(out.dpdu), normalize(out.dpdv));
-  if (solver.degenerate || !(lengthSquared(across) > sqr(roundingBound(8))) || !isFinite(out.dpdu) ||
-      !isFinite(out.dpdv))
+  // The sine of their angle against what rounding makes of it; false for what is not finite, too.
+  const DVec3 du(out.dpdu), dv(out.dpdv), across = glm::cross(du, dv);
+  constexpr double kLeastSine2 = sqr(static_cast<double>(roundingBound(8)));
+  if (solver.degenerate ||
+      !(glm::dot(across, across) > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv))))
     completeBasis(out.n, out.dpdu, out.dpdv);
   out.shading.n = out.n;
   out.shading.dpdu = out.dpdu;
@@ -215,12 +218,10 @@ std::optional<ShapeSample> TriangleMesh::sampleArea(uint32_t element, const Vec2
   const Corners c = corners(element);
   const Vec2 b01 = sampleUniformTriangle(u);
   const Vec3 b(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
-  const auto uv = uvs(c);
   ShapeSample s;
   s.p = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
   s.pError = positionError(c.p0, c.p1, c.p2, b);
   s.n = orientedNormal(c, b);
-  s.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
   s.pdf = 1 / a;
   return s;
 }

@@ -54,7 +54,6 @@ class QuadShape final : public Shape {
     ShapeSample s;
     s.p = q.corner + u.x * q.e1 + u.y * q.e2;
     s.n = normal(i);
-    s.uv = u;
     s.pdf = 1 / area(i);
     return s;
   }
