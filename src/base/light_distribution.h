@@ -31,9 +31,9 @@ struct SampledLight {
 };
 using SampledLights = std::vector<SampledLight>;
 
-/// Contract, tested for every registered distribution: sample() reports pmf(light); the pmf sum to
-/// 1, or to 0 where no light can contribute; drawn frequencies match; every light that contributes
-/// has pmf > 0. Thread-safe.
+/// Contract, tested for every registered distribution: sample() reports pmf(light); drawn
+/// frequencies match; every light that contributes has pmf > 0. The pmf sum to 1, or to less where a
+/// draw may end without a light: in a cluster of which no light can contribute. Thread-safe.
 class LightDistribution {
  public:
   virtual ~LightDistribution() = default;

@@ -39,7 +39,16 @@ Plugin<Base, Context> makePlugin(std::string name, std::string summary,
   auto fromSet = [schema, create](const ParameterSet& set, const Context& context) {
     P parameters;
     schema.read(set, &parameters);
-    return create(parameters, context);
+    if constexpr (requires { context.location; }) {
+      // A file that the directive names and that cannot be read is a fault of the scene.
+      try {
+        return create(parameters, context);
+      } catch (const IoError& e) {
+        throw SceneError(context.location, e.what());
+      }
+    } else {
+      return create(parameters, context);
+    }
   };
   return {{std::move(name), std::move(summary), std::move(schema), std::move(aliases)}, fromSet};
 }

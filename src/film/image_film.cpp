@@ -19,7 +19,7 @@ namespace lampyris {
 namespace {
 
 struct ImageFilmParameters {
-  int xResolution = 640, yResolution = 480;
+  int xResolution = 1280, yResolution = 720;
   std::vector<float> cropWindow{0, 1, 0, 1};
   float scale = 1, maxSampleLuminance = kInfinity, diagonal = 35;
   std::string filename = "lampyris.exr";
@@ -208,7 +208,7 @@ std::unique_ptr<Film> create(const ImageFilmParameters& p, const ParameterSet& s
     throw SceneError(
         at("filename"),
         fmt::format("parameter \"filename\": cannot write \"{}\"; expected a name that "
-                    "ends in .exr, .pfm, .png, .hdr, .tga or .jpg",
+                    "ends in .exr, .pfm, .png, .hdr, .tga, .bmp or .jpg",
                     p.filename));
   if (!context.filter) throw SceneError(context.location, "a film needs a pixel filter");
   checkMemory(bounds, at("xresolution"));

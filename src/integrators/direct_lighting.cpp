@@ -107,9 +107,11 @@ float DirectLighting::bsdfWeight(const LightSampleContext& from, LightId light, 
 Rgb DirectLighting::foundAtHit(const LightSampleContext& from, float bsdfPdf,
                                const SurfaceInteraction& hit) const {
   const Primitive& primitive = *hit.primitive;
-  const Rgb emitted = primitive.light->emitted(hit, hit.wo);
   const LightId id = primitive.lightId(hit.element);
-  if (id == kNoLight || emitted.isBlack()) return emitted;
+  // As in pbrt-v3, an emitter within an object instance is seen but lights nothing.
+  if (id == kNoLight) return Rgb();
+  const Rgb emitted = primitive.light->emitted(hit, hit.wo);
+  if (emitted.isBlack()) return emitted;
   const float pdf = primitive.light->pdfHit(hit.element, from.p, hit);
   return emitted * bsdfWeight(from, id, bsdfPdf, pdf);
 }

@@ -142,7 +142,7 @@ std::unique_ptr<Light> create(const InfiniteLightParameters& p, const LightConte
 
 LightRegistry::Entry infiniteLightPlugin() {
   return makePlugin("infinite", "Light from all directions: constant, or an environment map.",
-                    create);
+                    create, {"exinfinite"});
 }
 
 }  // namespace lampyris

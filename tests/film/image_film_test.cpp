@@ -57,8 +57,8 @@ class ImageFilmTest : public testing::Test {
 
 TEST_F(ImageFilmTest, DefaultsOfPbrt) {
   const auto film = filmRegistry().get("image", {}).create({}, context_);
-  EXPECT_EQ(film->resolution(), Int2(640, 480));
-  EXPECT_EQ(film->bounds(), (PixelBounds{{0, 0}, {640, 480}}));
+  EXPECT_EQ(film->resolution(), Int2(1280, 720));
+  EXPECT_EQ(film->bounds(), (PixelBounds{{0, 0}, {1280, 720}}));
   EXPECT_EQ(film->filename(), "lampyris.exr");
   EXPECT_EQ(film->filter().radius(), Vec2(0.5f));
   EXPECT_EQ(filter_, nullptr);

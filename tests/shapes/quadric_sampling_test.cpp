@@ -48,22 +48,34 @@ TEST(QuadricSampling, AreaHasItsClosedForm) {
               2 * M_PI * (1 + c * std::asin(e) / e), 1e-4);
 }
 
+/// The surface where a short ray against the normal of a sample meets it; none at a cut's edge, which
+/// rounding may carry the ray past.
+std::optional<ShapeHit> hitAt(const Shape& shape, const ShapeSample& s) {
+  const float above = 1e-3f * shape.bounds(0).diagonal();
+  return shape.intersect(0, Ray{s.p + above * s.n, -s.n, 2 * above});
+}
+
 TEST(QuadricSampling, SamplesLieOnTheSurfaceWithTheirPdf) {
   for (const QuadricCase& c : quadricCases()) {
     SCOPED_TRACE(c.name);
     const auto shape = c.make();
     std::vector<double> inverse;
+    int missed = 0;
     for (uint64_t i = 0; i < 4000; ++i) {
       const auto s = shape->sampleArea(0, {uniform(5, i, 0), uniform(5, i, 1)});
       ASSERT_TRUE(s);
       EXPECT_FLOAT_EQ(s->pdf, shape->pdfArea(0, s->n));
       EXPECT_FLOAT_EQ(s->pdf, shape->pdfArea(0, -s->n));
-      SurfaceInteraction at;
-      shape->surface(0, {1, s->uv}, Ray{}, SurfaceDetail::Basic, at);
-      EXPECT_LT(distance(at.p, s->p), 3e-6f * (1 + length(s->p)));
-      EXPECT_GT(dot(at.n, s->n), 0.999f);
       inverse.push_back(1 / static_cast<double>(s->pdf));
+      const auto hit = hitAt(*shape, *s);
+      missed += !hit;
+      if (!hit) continue;
+      SurfaceInteraction at;
+      shape->surface(0, *hit, Ray{}, SurfaceDetail::Basic, at);
+      EXPECT_LT(distance(at.p, s->p), 1e-5f * (1 + length(s->p)));
+      EXPECT_GT(dot(at.n, s->n), 0.999f);
     }
+    EXPECT_LT(missed, 10);
     const auto area = static_cast<double>(shape->area(0));
     EXPECT_EQ(meanTest(inverse, area, 1e-5 * area), "");
   }
@@ -78,8 +90,10 @@ TEST(QuadricSampling, AreaSamplesAreDistributedByTheirPdf) {
     std::vector<double> observed(kCells * kCells), expected(kCells * kCells);
     for (uint64_t i = 0; i < kSamples; ++i) {
       const auto s = shape->sampleArea(0, {uniform(6, i, 0), uniform(6, i, 1)});
-      const int x = std::min(static_cast<int>(s->uv.x * kCells), kCells - 1);
-      const int y = std::min(static_cast<int>(s->uv.y * kCells), kCells - 1);
+      const auto hit = hitAt(*shape, *s);
+      if (!hit) continue;
+      const int x = std::min(static_cast<int>(hit->uv.x * kCells), kCells - 1);
+      const int y = std::min(static_cast<int>(hit->uv.y * kCells), kCells - 1);
       ++observed[static_cast<size_t>(y * kCells + x)];
     }
     for (int y = 0; y < kCells * kSub; ++y) {
