@@ -75,6 +75,10 @@ class Bsdf {
  public:
   static constexpr size_t kMaxLobes = 8, kLobeSize = 128;
 
+  Bsdf() = default;
+  Bsdf(const Bsdf&) = delete;  // lobes point into the storage
+  Bsdf& operator=(const Bsdf&) = delete;
+
   /// Sets the frame: shading normal, tangent along shading.dpdu. Removes all lobes.
   void reset(const SurfaceInteraction& at);
 
