@@ -20,7 +20,7 @@ std::string world(const std::string& content) {
 TEST(Builder, DefaultsRenderAnEmptyWorld) {
   Reader r;
   const auto job = r.build("WorldBegin WorldEnd");
-  EXPECT_EQ(job->film->resolution(), Int2(640, 480));
+  EXPECT_EQ(job->film->resolution(), Int2(1280, 720));
   EXPECT_TRUE(job->camera && job->sampler && job->integrator && job->scene.geometry);
   EXPECT_EQ(job->scene.lightTable.size(), 0u);
   EXPECT_FALSE(job->scene.bounds.empty());

@@ -273,7 +273,7 @@ TEST(Ply, TheShapeNamesTheFile) {
   try {
     build.make("plymesh", p);
     FAIL();
-  } catch (const IoError& e) {
+  } catch (const SceneError& e) {
     EXPECT_NE(std::string(e.what()).find(path.string()), std::string::npos);
   }
   EXPECT_THROW(build.make("plymesh", {}), SceneError);
