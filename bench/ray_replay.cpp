@@ -140,9 +140,10 @@ int run(int argc, char** argv) {
     replayTimes.push_back(now() - start);
     ratios.push_back(renderTimes.back() / replayTimes.back());
   }
-  fmt::print("render {:.0f} paths/s, replay {:.0f} paths/s ({} hits), render/replay {:.2f} "
-             "(medians of {})\n",
-             paths / median(renderTimes), paths / median(replayTimes), hits, median(ratios), rounds);
+  fmt::print(
+      "render {:.0f} paths/s, replay {:.0f} paths/s ({} hits), render/replay {:.2f} "
+      "(medians of {})\n",
+      paths / median(renderTimes), paths / median(replayTimes), hits, median(ratios), rounds);
   return 0;
 }
 

@@ -10,7 +10,8 @@ namespace lampyris {
 /// Builds the two-level Embree scene. Shapes and primitives of `description` must outlive it.
 std::unique_ptr<Geometry> makeEmbreeGeometry(GeometryDescription description);
 
-/// The RTCScene behind a geometry that makeEmbreeGeometry() made: for benchmarks against bare Embree.
+/// The RTCScene behind a geometry that makeEmbreeGeometry() made: for benchmarks against bare
+/// Embree.
 RTCSceneTy* embreeScene(const Geometry& geometry);
 
 }  // namespace lampyris

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <new>
-#include <cassert>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -29,10 +29,10 @@ enum LobeFlags : uint8_t {
 /// A direction drawn from a lobe, in local coordinates.
 struct LobeSample {
   Vec3 wi{0};
-  Rgb f;            ///< for a specular lobe: such that f |cos θi| / pdf is the weight
-  float pdf = 0;    ///< by solid angle; for a specular lobe the probability of the choice
+  Rgb f;          ///< for a specular lobe: such that f |cos θi| / pdf is the weight
+  float pdf = 0;  ///< by solid angle; for a specular lobe the probability of the choice
   uint8_t flags = 0;
-  float eta = 1;    ///< relative index of refraction: ηt/ηi along the path if transmitted
+  float eta = 1;  ///< relative index of refraction: ηt/ηi along the path if transmitted
 };
 
 /// One term of a BSDF, in the local frame of the shading normal (z). Directions are unit and point

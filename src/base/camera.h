@@ -8,13 +8,13 @@
 namespace lampyris {
 
 struct CameraSample {
-  Vec2 film{0};   ///< in pixels, (0, 0) at the top left corner of the image
+  Vec2 film{0};  ///< in pixels, (0, 0) at the top left corner of the image
   Vec2 lens{0.5f};
-  float time = 0; ///< in [0, 1): of the shutter interval
+  float time = 0;  ///< in [0, 1): of the shutter interval
 };
 
 struct CameraRay {
-  Ray ray;        ///< unit direction, world space
+  Ray ray;  ///< unit direction, world space
   RayDifferential differential;
   float weight = 1;  ///< 0: the lens lets nothing through
 };

@@ -20,8 +20,8 @@ using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 class Film {
  public:
   virtual ~Film() = default;
-  virtual Int2 resolution() const = 0;      ///< of the whole image
-  virtual PixelBounds bounds() const = 0;   ///< the pixels that are rendered (crop window)
+  virtual Int2 resolution() const = 0;     ///< of the whole image
+  virtual PixelBounds bounds() const = 0;  ///< the pixels that are rendered (crop window)
   virtual const Filter& filter() const = 0;
   virtual const std::string& filename() const = 0;
 

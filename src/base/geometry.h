@@ -11,10 +11,10 @@ namespace lampyris {
 /// A shape in the scene.
 struct Primitive {
   const Shape* shape = nullptr;
-  const Material* material = nullptr;   ///< null: an interface that rays pass
-  const Light* light = nullptr;         ///< if it emits
-  LightId firstLight = kNoLight;        ///< + element; kNoLight: emits, but is not sampled
-  const FloatTexture* alpha = nullptr;  ///< rays pass where it is 0
+  const Material* material = nullptr;         ///< null: an interface that rays pass
+  const Light* light = nullptr;               ///< if it emits
+  LightId firstLight = kNoLight;              ///< + element; kNoLight: emits, but is not sampled
+  const FloatTexture* alpha = nullptr;        ///< rays pass where it is 0
   const FloatTexture* shadowAlpha = nullptr;  ///< the same for occlusion tests
   LightId lightId(uint32_t element) const {
     return firstLight == kNoLight ? kNoLight : firstLight + element;
@@ -24,7 +24,7 @@ struct Primitive {
 /// Where a ray meets the scene first.
 struct Hit {
   ShapeHit shape;
-  uint32_t primitive = 0;   ///< index in the scene's primitives
+  uint32_t primitive = 0;  ///< index in the scene's primitives
   uint32_t element = 0;
   uint32_t instance = kNoInstance;
   static constexpr uint32_t kNoInstance = ~uint32_t{0};
@@ -49,8 +49,8 @@ struct ObjectDefinition {
   std::vector<Primitive> primitives;
 };
 struct ObjectInstance {
-  uint32_t object = 0;           ///< index in the definitions
-  Transform instanceToWorld;     ///< to be applied to the definition's coordinates
+  uint32_t object = 0;        ///< index in the definitions
+  Transform instanceToWorld;  ///< to be applied to the definition's coordinates
 };
 /// What a Geometry is built of.
 struct GeometryDescription {

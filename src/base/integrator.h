@@ -16,17 +16,17 @@ namespace lampyris {
 
 /// How far along a render is.
 struct RenderProgress {
-  uint64_t samplesDone = 0;     ///< a pixel, all passes
-  uint64_t samplesTarget = 0;   ///< a pixel; 0: unknown (rendering for a given time)
+  uint64_t samplesDone = 0;    ///< a pixel, all passes
+  uint64_t samplesTarget = 0;  ///< a pixel; 0: unknown (rendering for a given time)
   double fractionDone = 0;
   double seconds = 0;
-  uint64_t cameraPaths = 0;     ///< in all
+  uint64_t cameraPaths = 0;  ///< in all
 };
 
 struct RenderOptions {
-  uint64_t firstSample = 0;     ///< index to start at (after --resume)
-  uint64_t sampleCount = 0;     ///< a pixel, the resumed ones included
-  double seconds = 0;           ///< > 0: until this time has passed, whatever sampleCount says
+  uint64_t firstSample = 0;  ///< index to start at (after --resume)
+  uint64_t sampleCount = 0;  ///< a pixel, the resumed ones included
+  double seconds = 0;        ///< > 0: until this time has passed, whatever sampleCount says
   const std::atomic<bool>* cancel = nullptr;
   /// Called between tiles, from one thread at a time; may be empty.
   std::function<void(const RenderProgress&)> onProgress;

@@ -27,12 +27,9 @@ void SurfaceInteraction::computeDifferentials(const RayDifferential& d) {
 }
 
 Vec3 offsetRayOrigin(const Vec3& p, const Vec3& pError, const Vec3& n, const Vec3& w) {
-  // Twice the box: the ray tracer rounds as well.
+  // Twice the box: this sum rounds as well, by no more than p did, and so does the ray tracer.
   const float d = 2 * dot(glm::abs(n), pError);
-  const Vec3 offset = dot(w, n) < 0 ? -d * n : d * n;
-  const Vec3 o = p + offset;
-  // Away from p by what the sum may have been rounded.
-  return o + glm::sign(offset) * (2 * kMachineEpsilon * glm::abs(o));
+  return p + (dot(w, n) < 0 ? -d : d) * n;
 }
 
 }  // namespace lampyris

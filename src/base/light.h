@@ -19,10 +19,10 @@ inline constexpr LightId kNoLight = ~LightId{0};
 
 /// Light arriving at a point, drawn from one light.
 struct LightSample {
-  Rgb radiance;        ///< unoccluded; delta lights: the irradiance on a plane facing it
-  Vec3 wi{0};          ///< unit, towards the light
+  Rgb radiance;  ///< unoccluded; delta lights: the irradiance on a plane facing it
+  Vec3 wi{0};    ///< unit, towards the light
   float distance = kInfinity;
-  float pdf = 0;       ///< by solid angle; 1 for delta lights
+  float pdf = 0;               ///< by solid angle; 1 for delta lights
   Vec3 p{0}, pError{0}, n{0};  ///< where it comes from, if finite; n = 0: no surface there
 };
 
@@ -34,9 +34,9 @@ struct LightBounds {
   float cosThetaO = -1;
   float cosThetaE = 0;
   bool twoSided = false;
-  /// Luminance of the largest radiant intensity in any direction (W/sr): a point light's I, a spot's
-  /// I, L × area for an emitter. Equal for a point light and a small sphere that looks the same
-  /// from afar.
+  /// Luminance of the largest radiant intensity in any direction (W/sr): a point light's I, a
+  /// spot's I, L × area for an emitter. Equal for a point light and a small sphere that looks the
+  /// same from afar.
   float intensity = 0;
 };
 
@@ -71,13 +71,13 @@ class Light {
   /// Radiance along a ray that leaves the scene in direction `d`.
   virtual Rgb escaped(const Vec3& d) const { return (void)d, Rgb(); }
 
-  /// Emitted power in watts; exact for constant emission, else an estimate; black only if nothing is
-  /// ever emitted.
+  /// Emitted power in watts; exact for constant emission, else an estimate; black only if nothing
+  /// is ever emitted.
   virtual Rgb power(uint32_t element) const = 0;
   /// None for infinite lights.
   virtual std::optional<LightBounds> bounds(uint32_t element) const = 0;
-  /// For infinite lights: luminance of the irradiance on a surface with normal `n` (both sides where
-  /// `transmits`), an estimate that is > 0 wherever light may arrive. 0 for others.
+  /// For infinite lights: luminance of the irradiance on a surface with normal `n` (both sides
+  /// where `transmits`), an estimate that is > 0 wherever light may arrive. 0 for others.
   virtual float irradianceEstimate(const Vec3& n, bool transmits) const {
     return (void)n, (void)transmits, 0.f;
   }

@@ -13,8 +13,8 @@ namespace lampyris {
 /// A point that wants light. Built once per vertex and used both to sample and to weigh.
 struct LightSampleContext {
   Vec3 p{0}, pError{0};
-  Vec3 n{0, 0, 1};    ///< geometric normal
-  Vec3 ns{0, 0, 1};   ///< shading normal
+  Vec3 n{0, 0, 1};   ///< geometric normal
+  Vec3 ns{0, 0, 1};  ///< shading normal
   Vec3 wo{0, 0, 1};
   /// Whether light can arrive from the side of wo (as the geometric normal sees it), and from the
   /// other one.
@@ -32,8 +32,8 @@ struct SampledLight {
 using SampledLights = std::vector<SampledLight>;
 
 /// Contract, tested for every registered distribution: sample() reports pmf(light); drawn
-/// frequencies match; every light that contributes has pmf > 0. The pmf sum to 1, or to less where a
-/// draw may end without a light: in a cluster of which no light can contribute. Thread-safe.
+/// frequencies match; every light that contributes has pmf > 0. The pmf sum to 1, or to less where
+/// a draw may end without a light: in a cluster of which no light can contribute. Thread-safe.
 class LightDistribution {
  public:
   virtual ~LightDistribution() = default;

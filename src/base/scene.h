@@ -18,9 +18,9 @@ struct Scene {
   std::vector<std::unique_ptr<Light>> lights;
   std::unique_ptr<Geometry> geometry;
 
-  LightTable lightTable;                       ///< the lights that can be chosen
-  std::vector<const Light*> infiniteLights;    ///< those that a ray can escape to
-  std::vector<LightId> infiniteLightIds;       ///< their ids, kNoLight if not sampled
+  LightTable lightTable;                     ///< the lights that can be chosen
+  std::vector<const Light*> infiniteLights;  ///< those that a ray can escape to
+  std::vector<LightId> infiniteLightIds;     ///< their ids, kNoLight if not sampled
   Bounds3 bounds;
 };
 

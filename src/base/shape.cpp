@@ -17,8 +17,7 @@ float Shape::pdfArea(uint32_t element, const Vec3& n) const {
   return safeDivide(1, area(element));
 }
 
-float Shape::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
-                           const Vec3& n) const {
+float Shape::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p, const Vec3& n) const {
   const Vec3 d = p - from;
   const float distance2 = lengthSquared(d);
   const float cosine = absDot(n, d) / std::sqrt(distance2);

@@ -31,8 +31,8 @@ struct ShapeHit {
 /// A point on a shape, drawn at random.
 struct ShapeSample {
   Vec3 p{0}, pError{0};
-  Vec3 n{0, 0, 1};   ///< geometric normal, oriented as SurfaceInteraction::n
-  float pdf = 0;     ///< by area, or by solid angle: see the function that returned it
+  Vec3 n{0, 0, 1};  ///< geometric normal, oriented as SurfaceInteraction::n
+  float pdf = 0;    ///< by area, or by solid angle: see the function that returned it
 };
 
 /// All positions are in world space (for a shape of an object instance: in the space in which
@@ -47,7 +47,8 @@ class Shape {
   virtual Bounds3 bounds(uint32_t element) const = 0;
   /// The nearest hit with 0 < t < ray.tMax; not called for triangle meshes.
   virtual std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const = 0;
-  /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray` (time; d for nothing else).
+  /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray` (time; d for nothing
+  /// else).
   virtual void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
                        SurfaceInteraction& out) const = 0;
 

@@ -26,7 +26,9 @@ struct Textured {
   T value{};
   const Texture<T>* texture = nullptr;
 
-  T operator()(const SurfaceInteraction& at) const { return texture ? texture->evaluate(at) : value; }
+  T operator()(const SurfaceInteraction& at) const {
+    return texture ? texture->evaluate(at) : value;
+  }
   bool isConstant() const { return !texture; }
 };
 using TexturedFloat = Textured<float>;

@@ -55,8 +55,8 @@ struct ImageLayer {
   std::vector<float> values;
 };
 
-/// An image file's pixels, and whether its values are sRGB-encoded (8-bit formats) or linear. 8- and
-/// 16-bit values are scaled to [0, 1] and not yet decoded.
+/// An image file's pixels, and whether its values are sRGB-encoded (8-bit formats) or linear. 8-
+/// and 16-bit values are scaled to [0, 1] and not yet decoded.
 struct LoadedImage {
   Image image;
   bool srgbEncoded = false;
@@ -86,7 +86,8 @@ bool isWritableImagePath(const std::string& path);
 
 float srgbToLinear(float v);
 float linearToSrgb(float v);
-/// Makes sRGB-encoded values linear, all channels but alpha (the second of two, the fourth of four).
+/// Makes sRGB-encoded values linear, all channels but alpha (the second of two, the fourth of
+/// four).
 void decodeSrgb(Image& image);
 
 /// Each file is read once, when first asked for; what is made of files (texture pyramids) is made
@@ -96,8 +97,8 @@ class ImageCache {
   /// Throws IoError.
   std::shared_ptr<const LoadedImage> get(const std::string& path);
 
-  /// What `make` returned when first called for this type and key. Others who ask for the same wait;
-  /// where `make` throws, nothing is kept. `make` must not ask for the same type and key.
+  /// What `make` returned when first called for this type and key. Others who ask for the same
+  /// wait; where `make` throws, nothing is kept. `make` must not ask for the same type and key.
   template <class T>
   std::shared_ptr<const T> shared(const std::string& key,
                                   const std::function<std::shared_ptr<const T>()>& make) {

@@ -25,8 +25,20 @@ namespace lampyris {
 
 /// Types as written in scene files. `color` is read as Rgb, `point`/`vector` as Point3/Vector3.
 enum class ParameterType : uint8_t {
-  Integer, Float, Bool, String, Point2, Vector2, Point3, Vector3, Normal,
-  Rgb, Xyz, Spectrum, Blackbody, Texture
+  Integer,
+  Float,
+  Bool,
+  String,
+  Point2,
+  Vector2,
+  Point3,
+  Vector3,
+  Normal,
+  Rgb,
+  Xyz,
+  Spectrum,
+  Blackbody,
+  Texture
 };
 /// The spelling in a scene file, e.g. "integer".
 std::string_view typeName(ParameterType type);
@@ -66,26 +78,38 @@ struct RgbInput {
   std::string texture;
   SourceLocation location;
   RgbInput() = default;
-  RgbInput(const Rgb& v) : value(v) {}   // NOLINT(google-explicit-constructor): a default value
-  RgbInput(float v) : value(v) {}        // NOLINT(google-explicit-constructor): a default value
+  RgbInput(const Rgb& v) : value(v) {}  // NOLINT(google-explicit-constructor): a default value
+  RgbInput(float v) : value(v) {}       // NOLINT(google-explicit-constructor): a default value
 };
 
 /// What a parameter is read into.
 enum class TargetType : uint8_t {
-  Int, Float, Bool, String, Vec2, Vec3, Rgb, FloatInput, RgbInput,
-  IntList, FloatList, StringList, Vec2List, Vec3List
+  Int,
+  Float,
+  Bool,
+  String,
+  Vec2,
+  Vec3,
+  Rgb,
+  FloatInput,
+  RgbInput,
+  IntList,
+  FloatList,
+  StringList,
+  Vec2List,
+  Vec3List
 };
 
 /// One declared parameter.
 struct ParameterDeclaration {
   std::string name;
   TargetType target;
-  bool optional = false;     ///< the member is a std::optional
-  size_t offset = 0;         ///< of the member in its struct, in bytes
+  bool optional = false;  ///< the member is a std::optional
+  size_t offset = 0;      ///< of the member in its struct, in bytes
   /// For Vec2/Vec3 targets and their lists: what the file must call it (point, vector, normal …).
   std::optional<ParameterType> exactType;
   std::string doc;
-  std::string defaultText;   ///< for people
+  std::string defaultText;  ///< for people
   double min = -1e300, max = 1e300;
   std::vector<std::string> choices;
   std::vector<std::string> aliases;
@@ -108,9 +132,7 @@ class DeclarationHandle {
   DeclarationHandle& alias(std::string name);
   DeclarationHandle& type(ParameterType t) { return d_.exactType = t, *this; }
   /// Says in words what the default is, where the member's initialiser doesn't.
-  DeclarationHandle& defaultIs(std::string text) {
-    return d_.defaultText = std::move(text), *this;
-  }
+  DeclarationHandle& defaultIs(std::string text) { return d_.defaultText = std::move(text), *this; }
 
  private:
   ParameterDeclaration& d_;
@@ -120,7 +142,8 @@ class DeclarationHandle {
 /// `.type(…)` says otherwise.
 class Declaration {
  public:
-  Declaration(const void* object, size_t size) : object_(static_cast<const char*>(object)), size_(size) {}
+  Declaration(const void* object, size_t size)
+      : object_(static_cast<const char*>(object)), size_(size) {}
 
   DeclarationHandle add(std::string name, int& m, std::string doc);
   DeclarationHandle add(std::string name, float& m, std::string doc);

@@ -33,13 +33,13 @@ void checkUnknownParameters(const ParameterSet& set, std::span<const Schema* con
     }
     if (known) {
       if (!known->ignoredBecause.empty())
-        diagnostics.warn(p.location, fmt::format("parameter \"{}\" of {} \"{}\" has no effect: {}",
-                                                 p.name, registry.kind(), pluginName,
-                                                 known->ignoredBecause));
+        diagnostics.warn(p.location,
+                         fmt::format("parameter \"{}\" of {} \"{}\" has no effect: {}", p.name,
+                                     registry.kind(), pluginName, known->ignoredBecause));
       continue;
     }
-    const std::string message = fmt::format("unknown parameter \"{}\" for {} \"{}\"", p.name,
-                                            registry.kind(), pluginName);
+    const std::string message =
+        fmt::format("unknown parameter \"{}\" for {} \"{}\"", p.name, registry.kind(), pluginName);
     const std::string guess = didYouMean(p.name, names);
     if (!guess.empty() && !registry.knowsParameter(p.name))
       throw SceneError(p.location, message + guess);

@@ -19,9 +19,9 @@ namespace lampyris {
 /// What `help-scene` needs of a plugin.
 struct PluginInfo {
   std::string name;
-  std::string summary;                ///< one sentence
+  std::string summary;  ///< one sentence
   Schema schema;
-  std::vector<std::string> aliases;   ///< other names for it in scene files
+  std::vector<std::string> aliases;  ///< other names for it in scene files
 };
 
 /// A plugin of kind `Base`; `Context` is what it may use while it is created.
@@ -94,8 +94,8 @@ class Registry : public RegistryInfo {
   /// Throws SceneError: `unknown shape "spher"; did you mean "sphere"?`.
   const Entry& get(std::string_view name, SourceLocation where) const {
     if (const Entry* e = find(name)) return *e;
-    throw SceneError(where, "unknown " + kind() + " \"" + std::string(name) + "\"" +
-                                didYouMean(name, names()));
+    throw SceneError(
+        where, "unknown " + kind() + " \"" + std::string(name) + "\"" + didYouMean(name, names()));
   }
 
  private:

@@ -56,8 +56,8 @@ Distribution1D::Sample Distribution1D::sample(float u) const {
   // Rounding may leave u in a cell without mass at the end; the last one with mass takes it.
   while (cell > 0 && pmf(cell) == 0) --cell;
   const float within = std::min((u - cdf_[cell]) / pmf(cell), kOneMinusEpsilon);
-  float x = std::min((static_cast<float>(cell) + within) / static_cast<float>(size()),
-                     kOneMinusEpsilon);
+  float x =
+      std::min((static_cast<float>(cell) + within) / static_cast<float>(size()), kOneMinusEpsilon);
   // Rounding may carry x over the border to a cell of another density.
   while (cellOf(x) > cell) x = nextFloatDown(x);
   while (cellOf(x) < cell) x = nextFloatUp(x);

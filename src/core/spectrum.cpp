@@ -57,9 +57,8 @@ Rgb spectrumToRgb(std::span<const float> pairs) {
   return integrate([&points](double lambda) {
     if (lambda <= points.front().lambda) return points.front().value;
     if (lambda >= points.back().lambda) return points.back().value;
-    const auto above =
-        std::upper_bound(points.begin(), points.end(), lambda,
-                         [](double l, const Point& p) { return l < p.lambda; });
+    const auto above = std::upper_bound(points.begin(), points.end(), lambda,
+                                        [](double l, const Point& p) { return l < p.lambda; });
     const auto below = above - 1;
     const double t = (lambda - below->lambda) / (above->lambda - below->lambda);
     return (1 - t) * below->value + t * above->value;

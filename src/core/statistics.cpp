@@ -16,8 +16,7 @@ void Statistics::set(const std::string& section, const std::string& name, double
   e.text.clear();
 }
 
-void Statistics::set(const std::string& section, const std::string& name,
-                     const std::string& text) {
+void Statistics::set(const std::string& section, const std::string& name, const std::string& text) {
   const std::lock_guard lock(mutex_);
   at(section, name).text = text;
 }

@@ -70,9 +70,7 @@ Transform Transform::orthographic(float near, float far) {
   return scale({1, 1, 1 / (far - near)}) * translate({0, 0, -near});
 }
 
-bool Transform::isSingular() const {
-  return inverse_ == glm::mat4(0) || matrix_ == glm::mat4(0);
-}
+bool Transform::isSingular() const { return inverse_ == glm::mat4(0) || matrix_ == glm::mat4(0); }
 
 bool Transform::swapsHandedness() const {
   return glm::determinant(glm::dmat3(glm::mat3(matrix_))) < 0;

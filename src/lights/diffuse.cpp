@@ -36,7 +36,7 @@ class DiffuseAreaLight final : public Light {
     LightSample s;
     s.distance = length(d);
     if (!(s.distance > 0)) return std::nullopt;
-    s.wi = d / s.distance;
+    s.wi = d * (1 / s.distance);
     s.radiance = emittedAt(point->n, -s.wi);
     if (s.radiance.isBlack()) return std::nullopt;
     s.pdf = point->pdf;

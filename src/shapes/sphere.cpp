@@ -163,7 +163,7 @@ std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3
   const Frame frame = Frame::fromZ(Vec3(-cone->axis));
   // Azimuth and frame are good to float precision, which turns the draw as a whole by that much.
   const DVec3 across(std::cos(phi) * frame.x + std::sin(phi) * frame.y);
-  const DVec3 n = glm::normalize(sinAlpha * across - cosAlpha * cone->axis);
+  const DVec3 n = sinAlpha * across - cosAlpha * cone->axis;
   ShapeSample s;
   // Through the map itself, which may be off from a similarity by its rounding.
   const DVec3 object = radius_ * glm::normalize(glm::transpose(matrix()) * n);

@@ -125,6 +125,21 @@ Vec3 TriangleMesh::orientedNormal(const Corners& c, const Vec3& b) const {
   return flip_ ? -n : n;
 }
 
+/// Sets dpdu and dpdv; false if uv does not parameterise the triangle.
+bool TriangleMesh::setTangents(const Corners& c, const std::array<Vec2, 3>& uv,
+                               SurfaceInteraction& out) const {
+  if (data_.uvs.empty()) {  // the solution for the uv that stand in
+    out.dpdu = c.p1 - c.p0;
+    out.dpdv = c.p2 - c.p1;
+    return true;
+  }
+  const UvSolver solver(uv);
+  if (solver.degenerate) return false;
+  out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
+  out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
+  return true;
+}
+
 void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray,
                            SurfaceDetail detail, SurfaceInteraction& out) const {
   const Corners c = corners(element);
@@ -139,15 +154,11 @@ void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray
   out.n = orientedNormal(c, b);
   // A ray tracer may report the edge of a triangle without area; it has no normal of its own.
   if (out.n == Vec3(0)) out.n = normalize(-ray.d);
-  const UvSolver solver(uv);
-  if (!solver.degenerate) {
-    out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
-    out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
-  }
+  const bool parameterised = setTangents(c, uv, out);
   // The sine of their angle against what rounding makes of it; false for what is not finite, too.
   const DVec3 du(out.dpdu), dv(out.dpdv), across = glm::cross(du, dv);
   constexpr double kLeastSine2 = sqr(static_cast<double>(roundingBound(8)));
-  if (solver.degenerate ||
+  if (!parameterised ||
       !(glm::dot(across, across) > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv))))
     completeBasis(out.n, out.dpdu, out.dpdv);
   out.shading.n = out.n;

@@ -51,6 +51,7 @@ class TriangleMesh final : public Shape {
   std::array<Vec2, 3> uvs(const Corners& c) const;
   Vec3 interpolatedNormal(const Corners& c, const Vec3& b) const;
   Vec3 orientedNormal(const Corners& c, const Vec3& b) const;
+  bool setTangents(const Corners& c, const std::array<Vec2, 3>& uv, SurfaceInteraction& out) const;
   void setShadingFrame(const Corners& c, const Vec3& b, SurfaceInteraction& out) const;
   void setNormalDerivatives(const Corners& c, const Vec3& b, const std::array<Vec2, 3>& uv,
                             SurfaceInteraction& out) const;

@@ -126,7 +126,8 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   app.add_flag("-q,--quiet", s.quiet, "Only errors");
   app.add_flag("-v,--verbose", s.verbose, "All statistics");
   app.add_flag("--cat", cat, "(pbrt-v3) print the scene: not available yet");
-  app.add_flag("--toply", toPly, "(pbrt-v3) print the scene, meshes as PLY files: not available yet");
+  app.add_flag("--toply", toPly,
+               "(pbrt-v3) print the scene, meshes as PLY files: not available yet");
   if (parseArguments(app, splitCrop(arguments))) return std::nullopt;
   if (!pixel.empty()) s.pixel = parsePixel(pixel);
   for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));

@@ -12,7 +12,9 @@ class DarkLight final : public Light {
   explicit DarkLight(uint32_t elements) : elements_(elements) {}
   uint32_t elementCount() const override { return elements_; }
   bool isDelta() const override { return true; }
-  std::optional<LightSample> sample(uint32_t, const Vec3&, const Vec2&) const override { return {}; }
+  std::optional<LightSample> sample(uint32_t, const Vec3&, const Vec2&) const override {
+    return {};
+  }
   Rgb power(uint32_t) const override { return Rgb(); }
   std::optional<LightBounds> bounds(uint32_t) const override { return {}; }
 

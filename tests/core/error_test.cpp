@@ -66,6 +66,7 @@ TEST(Nearest, FindsMisspellings) {
   EXPECT_EQ(nearest("maxleafs", names), "maxleaf");
   EXPECT_EQ(nearest("MaxDepth", names), "maxdepth");
   EXPECT_EQ(nearest("splitmetod", names), "splitmethod");
+  EXPECT_EQ(nearest("mxadepht", names), "maxdepth");
   EXPECT_EQ(nearest("maxdepth", names), "maxdepth");
   EXPECT_EQ(nearest("integrator", names), "");
   EXPECT_EQ(nearest("", names), "");

@@ -72,9 +72,9 @@ std::string directionChiSquareTest(const DirectionTest& t, double falseAlarm) {
     }
     const int y = std::min(static_cast<int>((w.z + 1) / 2 * static_cast<float>(t.thetaCells)),
                            t.thetaCells - 1);
-    const int x = std::min(
-        static_cast<int>(sphericalPhi(w) / (2 * kPi) * static_cast<float>(t.phiCells)),
-        t.phiCells - 1);
+    const int x =
+        std::min(static_cast<int>(sphericalPhi(w) / (2 * kPi) * static_cast<float>(t.phiCells)),
+                 t.phiCells - 1);
     ++observed[static_cast<size_t>(y * t.phiCells + x)];
   }
   double total = 0;
