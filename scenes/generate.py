@@ -78,29 +78,29 @@ def quickstart(folder):
     rng = random.Random(7)
     os.makedirs(os.path.join(folder, "models"), exist_ok=True)
     write_ply(os.path.join(folder, "models", "knot.ply"), *torus_knot(2, 3, 240, 20, 0.15))
-    out = ['''# Glow-worms: a golden knot, glass and lacquer, lit by 540 small lights and a dim night sky.
+    out = ['''# Glow-worms: a golden knot, glass and lacquer, lit by 480 small lights and a dim night sky.
 # Made by generate.py.
 
 LookAt 0 -7.6 2.35  0 0 1.02  0 0 1
 Camera "perspective" "float fov" 31
-Sampler "bluenoise" "integer pixelsamples" 32
+Sampler "bluenoise" "integer pixelsamples" 64
 Integrator "path" "integer maxdepth" 6 "string lightsampler" "bvh"
 PixelFilter "gaussian" "float xwidth" 1.5 "float ywidth" 1.5
-Film "image" "string filename" "quickstart.exr" "integer xresolution" 800 "integer yresolution" 450
+Film "image" "string filename" "quickstart.exr" "float scale" 1.3 "integer xresolution" 800 "integer yresolution" 450
 
 WorldBegin
 
 LightSource "infinite" "rgb L" [.012 .018 .04]
 
 MakeNamedMaterial "floor" "string type" "substrate" "rgb Kd" [.09 .085 .1] "rgb Ks" [.22 .22 .22]
-  "float uroughness" .035 "float vroughness" .035
+  "float uroughness" .06 "float vroughness" .06
 MakeNamedMaterial "backdrop" "string type" "matte" "rgb Kd" [.22 .2 .3] "float sigma" 20
-MakeNamedMaterial "gold" "string type" "metal" "rgb eta" [.17 .35 1.5] "rgb k" [3.1 2.7 1.9] "float roughness" .02
+MakeNamedMaterial "gold" "string type" "metal" "rgb eta" [.17 .35 1.5] "rgb k" [3.1 2.7 1.9] "float roughness" .05
 MakeNamedMaterial "glass" "string type" "glass" "float eta" 1.5
 MakeNamedMaterial "red" "string type" "plastic" "rgb Kd" [.5 .03 .03] "rgb Ks" [.3 .3 .3] "float roughness" .02
 MakeNamedMaterial "teal" "string type" "plastic" "rgb Kd" [.02 .25 .28] "rgb Ks" [.2 .2 .2] "float roughness" .15
 MakeNamedMaterial "chalk" "string type" "matte" "rgb Kd" [.75 .72 .68] "float sigma" 30
-MakeNamedMaterial "steel" "string type" "metal" "rgb eta" [2.9 2.9 2.6] "rgb k" [3.1 3.3 3.4] "float roughness" .08
+MakeNamedMaterial "steel" "string type" "metal" "rgb eta" [2.9 2.9 2.6] "rgb k" [3.1 3.3 3.4] "float roughness" .1
 ''']
     out.append('''
 NamedMaterial "floor"
@@ -142,7 +142,7 @@ AttributeEnd
         out.append('NamedMaterial "%s"\n%s' % (material, sphere(x, y, r, r)))
 
     out.append('\n# The glow-worms.\nNamedMaterial "chalk"\n')
-    colours = [(1, .78, .25), (.75, 1, .3), (1, .5, .16), (.35, .8, 1), (1, .35, .5)]
+    colours = [(1, .62, .1), (.6, 1, .12), (1, .3, .05), (.12, .55, 1), (1, .12, .3)]
     count = 0
 
     def free(x, y, z, r):
@@ -151,26 +151,26 @@ AttributeEnd
 
     def place(x, y, z, strength):
         nonlocal count
-        r = rng.uniform(.012, .024)
+        r = rng.uniform(.032, .058)
         if z < r + .004 or not free(x, y, z, r): return
-        c = colours[min(int(rng.expovariate(1.1)), len(colours) - 1)]
+        c = rng.choices(colours, (8, 4, 5, 3, 3))[0]
         # The same flux whatever the size: small ones are brighter.
-        s = strength * (.018 / r) ** 2
+        s = strength * (.045 / r) ** 2
         out.append(glow_worm(x, y, z, r, scaled(c, s)))
         count += 1
 
     # Two ribbons that wind around the knot, a carpet on the floor, and strays in the air.
-    for i in range(170):
-        t = i / 169
+    for i in range(130):
+        t = i / 129
         for turn in (0, math.pi):
             a = turn + 2.6 * 2 * math.pi * t
             r = 1.55 + .35 * math.sin(5 * t * math.pi) + rng.gauss(0, .04)
-            place(r * math.cos(a), .25 + r * math.sin(a), .12 + 2.75 * t + rng.gauss(0, .03), 42)
+            place(r * math.cos(a), .25 + r * math.sin(a), .12 + 2.75 * t + rng.gauss(0, .03), 5.5)
     for _ in range(170):
         a, d = rng.uniform(0, 2 * math.pi), 1.1 + 4.2 * math.sqrt(rng.random())
-        place(d * math.cos(a), .4 + .8 * d * math.sin(a), rng.uniform(.03, .06), 34)
-    while count < 540:
-        place(rng.uniform(-5.5, 5.5), rng.uniform(-2.4, 5.5), rng.uniform(.1, 3.6), 30)
+        place(d * math.cos(a), .4 + .8 * d * math.sin(a), rng.uniform(.06, .09), 4.2)
+    while count < 480:
+        place(rng.uniform(-5.5, 5.5), rng.uniform(-2.4, 5.5), rng.uniform(.1, 3.6), 4)
     out.append("WorldEnd\n")
     with open(os.path.join(folder, "quickstart.pbrt"), "w") as f:
         f.write("".join(out))
