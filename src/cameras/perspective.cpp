@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cameras/projective.h"
-#include "core/sampling.h"
 
 namespace lampyris {
 
@@ -21,14 +20,10 @@ struct PerspectiveParameters : ProjectiveParameters {
 };
 
 /// A pinhole, or a thin lens focused on the plane z = focalDistance.
-class PerspectiveCamera final : public Camera {
+class PerspectiveCamera final : public ProjectiveCamera {
  public:
   PerspectiveCamera(const PerspectiveParameters& p, const CameraContext& context)
-      : cameraToWorld_(context.cameraToWorld),
-        shutter_(makeShutter(p, context)),
-        screen_(makeScreen(p, context)),
-        lensRadius_(p.lensRadius),
-        focalDistance_(p.focalDistance) {
+      : ProjectiveCamera(p, context) {
     const bool half = p.halfFov.value_or(-1) > 0;
     const double degrees = std::max(static_cast<double>(half ? 2 * *p.halfFov : p.fov), kMinFov);
     const auto tangent = static_cast<float>(std::tan(degrees * (3.14159265358979323846 / 360)));
@@ -36,30 +31,17 @@ class PerspectiveCamera final : public Camera {
     screen_.step *= tangent;
   }
 
-  CameraRay generate(const CameraSample& sample) const override {
+ protected:
+  LocalRay localRay(const CameraSample& sample) const override {
     // The plane z = 1; the screen is scaled to it.
     const Vec3 d(screen_.at(sample.film), 1);
     const Vec3 right(screen_.step.x, 0, 0), down(0, screen_.step.y, 0);
-    LocalRay ray;
-    if (lensRadius_ > 0) {
-      const Vec3 lens(lensRadius_ * sampleConcentricDisk(sample.lens), 0);
-      ray.o = ray.xOrigin = ray.yOrigin = lens;
-      ray.d = focalDistance_ * d - lens;
-      ray.xDirection = focalDistance_ * (d + right) - lens;
-      ray.yDirection = focalDistance_ * (d + down) - lens;
-    } else {
-      ray.d = d;
-      ray.xDirection = d + right;
-      ray.yDirection = d + down;
-    }
-    return toWorld(cameraToWorld_, ray, shutter_.at(sample.time));
+    const Vec3 o(0);
+    if (!hasLens()) return {o, d, o, d + right, o, d + down};
+    const Vec3 lens = lensPoint(sample.lens);
+    return {lens, focalDistance_ * d - lens,         lens, focalDistance_ * (d + right) - lens,
+            lens, focalDistance_ * (d + down) - lens};
   }
-
- private:
-  Transform cameraToWorld_;
-  Shutter shutter_;
-  Screen screen_;
-  float lensRadius_, focalDistance_;
 };
 
 std::unique_ptr<Camera> create(const PerspectiveParameters& p, const CameraContext& context) {

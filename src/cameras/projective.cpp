@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/sampling.h"
+
 namespace lampyris {
 
 void ShutterParameters::declare(Declaration& d) {
@@ -74,6 +76,17 @@ CameraRay toWorld(const Transform& cameraToWorld, const LocalRay& ray, float tim
       cameraToWorld.affinePoint(ray.xOrigin), normalize(cameraToWorld.vector(ray.xDirection)),
       cameraToWorld.affinePoint(ray.yOrigin), normalize(cameraToWorld.vector(ray.yDirection))};
   return out;
+}
+
+ProjectiveCamera::ProjectiveCamera(const ProjectiveParameters& p, const CameraContext& context)
+    : screen_(makeScreen(p, context)),
+      focalDistance_(p.focalDistance),
+      cameraToWorld_(context.cameraToWorld),
+      shutter_(makeShutter(p, context)),
+      lensRadius_(p.lensRadius) {}
+
+Vec3 ProjectiveCamera::lensPoint(const Vec2& u) const {
+  return {lensRadius_ * sampleConcentricDisk(u), 0};
 }
 
 }  // namespace lampyris

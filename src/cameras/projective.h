@@ -45,4 +45,27 @@ struct LocalRay {
 };
 CameraRay toWorld(const Transform& cameraToWorld, const LocalRay& ray, float time);
 
+/// A camera that projects the scene onto a screen; how, its subclass says.
+class ProjectiveCamera : public Camera {
+ public:
+  CameraRay generate(const CameraSample& sample) const final {
+    return toWorld(cameraToWorld_, localRay(sample), shutter_.at(sample.time));
+  }
+
+ protected:
+  ProjectiveCamera(const ProjectiveParameters& p, const CameraContext& context);
+  virtual LocalRay localRay(const CameraSample& sample) const = 0;
+  bool hasLens() const { return lensRadius_ > 0; }
+  /// A point of the lens.
+  Vec3 lensPoint(const Vec2& u) const;
+
+  Screen screen_;
+  float focalDistance_;
+
+ private:
+  Transform cameraToWorld_;
+  Shutter shutter_;
+  float lensRadius_;
+};
+
 }  // namespace lampyris

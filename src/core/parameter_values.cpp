@@ -102,28 +102,26 @@ T& member(const ParameterDeclaration& d, void* object) {
   return maybe.emplace();
 }
 
-void readFloatInput(const ParameterDeclaration& d, const Parameter& p, FloatInput& out) {
+/// Sets what a constant and a texture have in common; true: it is a texture.
+template <class Input>
+bool readTexture(const Parameter& p, Input& out) {
   out = {};
   out.location = p.location;
-  if (p.type == ParameterType::Texture) {
-    expectCount(p, p.strings.size(), 1);
-    out.texture = p.strings[0];
-  } else {
-    expectCount(p, numberCount(p), 1);
-    out.value = floatAt(p, 0);
-    checkRange(d, p, static_cast<double>(out.value));
-  }
+  if (p.type != ParameterType::Texture) return false;
+  expectCount(p, p.strings.size(), 1);
+  out.texture = p.strings[0];
+  return true;
+}
+
+void readFloatInput(const ParameterDeclaration& d, const Parameter& p, FloatInput& out) {
+  if (readTexture(p, out)) return;
+  expectCount(p, numberCount(p), 1);
+  out.value = floatAt(p, 0);
+  checkRange(d, p, static_cast<double>(out.value));
 }
 
 void readRgbInput(const Parameter& p, RgbInput& out) {
-  out = {};
-  out.location = p.location;
-  if (p.type == ParameterType::Texture) {
-    expectCount(p, p.strings.size(), 1);
-    out.texture = p.strings[0];
-  } else {
-    out.value = readRgb(p);
-  }
+  if (!readTexture(p, out)) out.value = readRgb(p);
 }
 
 void readList(const ParameterDeclaration& d, const Parameter& p, void* object) {

@@ -10,12 +10,7 @@ struct PathParameters {
   std::string lightSampler;
 
   void declare(Declaration& d) {
-    d.add("maxdepth", settings.maxDepth, "Longest path, in bounces.").range(0, 1e6);
-    d.add("rrthreshold", settings.rrThreshold,
-          "From the fifth bounce on, paths whose throughput is below this end at random.")
-        .atLeast(0);
-    d.add("pixelbounds", settings.pixelBounds, "Renders only these pixels: x0 x1 y0 y1.")
-        .defaultIs("all");
+    settings.declare(d);
     d.add("lightsampler", lightSampler, "Which light to sample at a point; see kind lightsampler.")
         .alias("lightsamplestrategy")
         .defaultIs("bvh");

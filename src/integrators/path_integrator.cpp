@@ -172,6 +172,14 @@ class PathIntegrator final : public Integrator {
 
 }  // namespace
 
+void PathSettings::declare(Declaration& d) {
+  d.add("maxdepth", maxDepth, "Longest path, in bounces.").range(0, 1e6);
+  d.add("rrthreshold", rrThreshold,
+        "From the fifth bounce on, paths whose throughput is below this end at random.")
+      .atLeast(0);
+  d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+}
+
 std::unique_ptr<Integrator> makePathIntegrator(const PathSettings& settings,
                                                std::unique_ptr<LightDistribution> distribution) {
   return std::make_unique<PathIntegrator>(settings, std::move(distribution));

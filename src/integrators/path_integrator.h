@@ -14,6 +14,8 @@ struct PathSettings {
   float rrThreshold = 1;  ///< below this throughput Russian roulette begins, from bounce 4 on
   std::vector<int> pixelBounds;
   SourceLocation location;
+
+  void declare(Declaration& d);
 };
 
 /// `distribution` may be null if the scene has no lights.

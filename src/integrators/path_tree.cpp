@@ -14,12 +14,7 @@ struct PathTreeParameters {
   std::string strategy = "1.0";
 
   void declare(Declaration& d) {
-    d.add("maxdepth", settings.maxDepth, "Longest path, in bounces.").range(0, 1e6);
-    d.add("rrthreshold", settings.rrThreshold,
-          "From the fifth bounce on, paths whose throughput is below this end at random.")
-        .atLeast(0);
-    d.add("pixelbounds", settings.pixelBounds, "Renders only these pixels: x0 x1 y0 y1.")
-        .defaultIs("all");
+    settings.declare(d);
     d.add("lightsamplestrategy", strategy,
           "A number in [0, 1] as text: the threshold of tree splitting (1: never); or the name of "
           "a light sampler.")

@@ -84,7 +84,7 @@ class Tokenizer {
     for (size_t c = 0; c < 32; ++c) t[c] = CharClass::Control;
     t[127] = CharClass::Control;
     for (const char c : {' ', '\t', '\n', '\r', '\v', '\f'})
-      t[static_cast<size_t>(c)] = CharClass::Space;
+      t[static_cast<unsigned char>(c)] = CharClass::Space;
     t['\\'] = CharClass::Backslash;
     t['#'] = CharClass::Hash;
     t['"'] = CharClass::Quote;
