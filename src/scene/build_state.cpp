@@ -10,7 +10,7 @@
 namespace lampyris {
 
 BuildState::BuildState(const Description& description, const BuildOptions& options,
-                       std::string folder, SourceFiles& files, Diagnostics& diagnostics,
+                       const std::string& folder, SourceFiles& files, Diagnostics& diagnostics,
                        Statistics& statistics, RenderJob& job)
     : description(description),
       options(options),

@@ -15,7 +15,7 @@
 namespace lampyris {
 
 struct BuildState {
-  BuildState(const Description& description, const BuildOptions& options, std::string folder,
+  BuildState(const Description& description, const BuildOptions& options, const std::string& folder,
              SourceFiles& files, Diagnostics& diagnostics, Statistics& statistics, RenderJob& job);
 
   const Description& description;

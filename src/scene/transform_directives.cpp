@@ -59,8 +59,7 @@ Transform WorldParser::matrix() {
   const auto v = numbers<16>();
   // As in pbrt-v3, column after column; GLM's order as well.
   glm::mat4 m;
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r) m[c][r] = v[static_cast<size_t>(4 * c + r)];
+  for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = v[static_cast<size_t>(i)];
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] == 0)
     fail(
         fmt::format("{} by a projective matrix: its 4th, 8th and 12th numbers must be 0, its "

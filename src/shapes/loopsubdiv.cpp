@@ -43,7 +43,7 @@ class Ring {
   /// Returns false where there is no ring: an isolated vertex, or sheets that meet.
   bool set(const Level& level, Index v) {
     vertices_.clear();
-    if (level.IsVertexNonManifold(v) || level.GetVertexFaces(v).size() == 0) return false;
+    if (level.IsVertexNonManifold(v) || level.GetVertexFaces(v).empty()) return false;
     const auto edges = level.GetVertexEdges(v);
     for (int i = 0; i < edges.size(); ++i) {
       const auto ends = level.GetEdgeVertices(edges[i]);

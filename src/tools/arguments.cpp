@@ -48,6 +48,9 @@ std::optional<int> parseArguments(CLI::App& app, const Arguments& arguments) {
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
     return kDone;
+  } catch (const CLI::CallForVersion& e) {
+    fmt::print("{}\n", e.what());
+    return kDone;
   } catch (const CLI::ParseError& e) {
     throw UsageError(e.what());
   }

@@ -89,6 +89,7 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   std::vector<std::string> defines;
   bool cat = false, toPly = false;
   CLI::App app("Lampyris renders pbrt-v3 scene files.", "lampyris");
+  app.set_version_flag("--version", "lampyris " LAMPYRIS_VERSION);
   app.footer(kFooter);
   app.add_option("scene", s.scenes, "Scene files; - is standard input");
   app.add_option("--spp", s.build.samplesPerPixel, "Samples a pixel")
