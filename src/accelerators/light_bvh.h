@@ -46,21 +46,12 @@ class LightBVHAccel {
   explicit LightBVHAccel(std::span<const LightBVHInput> lights);
 
   bool empty() const { return nodes_.empty(); }
-  /// None where no light can contribute, found out at the root or on the way down.
-  std::optional<SampledLight> sample(const LightSampleContext& ctx, float u) const {
-    return sample(LightReceiver(ctx), refineVariate(u, ctx.p));
-  }
-  /// Exactly what sample() reports for the light; 0 for a light that isn't in the tree.
-  float pmf(const LightSampleContext& ctx, LightId light) const {
-    return pmf(LightReceiver(ctx), light);
-  }
-  /// About the luminance of the irradiance (W/m²) by all lights of the tree.
-  float rootImportance(const LightSampleContext& ctx) const {
-    return rootImportance(LightReceiver(ctx));
-  }
-  /// The same with what doesn't depend on the node precomputed; `u` refined, see refineVariate().
+  /// None where no light can contribute, found out at the root or on the way down. `u` in [0, 1),
+  /// see refineVariate().
   std::optional<SampledLight> sample(const LightReceiver& at, double u) const;
+  /// Exactly what sample() reports for the light; 0 for a light that isn't in the tree.
   float pmf(const LightReceiver& at, LightId light) const;
+  /// About the luminance of the irradiance (W/m²) by all lights of the tree.
   float rootImportance(const LightReceiver& at) const;
 
   /// Depth first, see LinearLightBVHNode; empty or 2n − 1 of them.

@@ -76,11 +76,14 @@ float clusterCost(const Bucket& b, float invSize) {
   return s[3] * area * coneMeasure(std::min(2 * mean - 1, 1.f), b.lo[3]);
 }
 
+/// Positive and finite.
+float toFloat(double v) { return static_cast<float>(std::clamp(v, 1e-37, 3e38)); }
+
 /// What a finished subtree passes up.
 struct Subtree {
   Bounds3 box;
   EmissionCone cone;
-  double intensity = 0;
+  double flux = 0;  ///< in 4π W: the mean intensity over all directions
   uint32_t depth = 1;
 };
 
@@ -159,8 +162,9 @@ Subtree Builder::makeLeaf(size_t i, uint32_t node) {
   Subtree s;
   s.box = input.bounds.box;
   s.cone = EmissionCone::of(input.bounds);
-  s.intensity = static_cast<double>(input.bounds.intensity);
-  nodes_[node] = LinearLightBVHNode(s.box, s.cone, input.bounds.intensity, true, input.id);
+  const double intensity = static_cast<double>(input.bounds.intensity) / s.cone.peakFactor();
+  s.flux = intensity * s.cone.meanFactor();
+  nodes_[node] = LinearLightBVHNode(s.box, s.cone, toFloat(intensity), true, input.id);
   leafOf_[input.id] = node;
   return s;
 }
@@ -192,9 +196,9 @@ Subtree Builder::build(size_t first, size_t last, uint32_t node, uint32_t depth)
   s.box = l.box;
   s.box.extend(r.box);
   s.cone = merge(l.cone, r.cone);
-  s.intensity = l.intensity + r.intensity;
+  s.flux = l.flux + r.flux;
   s.depth = 1 + std::max(l.depth, r.depth);
-  const auto intensity = static_cast<float>(std::min(s.intensity, 3e38));
+  const float intensity = toFloat(s.flux / s.cone.meanFactor());
   nodes_[node] = LinearLightBVHNode(s.box, s.cone, intensity, false, right);
   return s;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Importance of a node of the light BVH for a point: an estimate, and but for constant factors an
-/// upper bound, of the irradiance by its lights.
+/// Importance of a node of the light BVH for a point: an estimate of the irradiance by its lights.
 ///
-/// Ma 2018, eq. 3.8 and 3.10, after Conty and Kulla 2018: intensity × cos θ' × cos θ'i / d², with
-/// θ' = max(0, θ − θo − θb), 0 where θ' > θe, θ'i = max(0, θi − θb), and θb the angle that the
-/// bounding sphere of the node's box subtends. Deviations: d² is at least the squared radius of
-/// that sphere (no unit of length comes in); where only one side of the surface counts, nodes
-/// behind it weigh nothing; small floors keep rounding from losing light.
+/// Ma 2018, eq. 3.10, after Conty and Kulla 2018: intensity × emission factor × receiver factor /
+/// d². Deviations: both factors and 1/d² are means over the node's lights as they may lie, not
+/// bounds, which saturate for large nodes and so say nothing at the top of the tree; nodes that
+/// emit away from the point, or behind the only side of the surface that counts, weigh nothing;
+/// small floors keep rounding from losing light. The bounds are there for comparison. Derivation
+/// and measurements: docs/light-bvh.md.
 #pragma once
 
 #include <cfloat>
@@ -16,10 +16,21 @@
 
 namespace lampyris {
 
+/// What the factors of an importance are.
+enum class LightFactors : uint8_t {
+  Mean,
+  /// Bounds over the node, by cos of max(0, θ − θo − θb) and of max(0, θi − θb), with θb the angle
+  /// that the bounding sphere subtends, and the distance of the centre, at least the radius.
+  Bound,
+  /// The same without a cosine at the receiver: Ma 2018, eq. 3.8.
+  Thesis,
+};
+
 /// What of a shading point matters to a node.
 class LightReceiver {
  public:
-  explicit LightReceiver(const LightSampleContext& ctx) : p_(ctx.p), ns_(ctx.ns) {
+  explicit LightReceiver(const LightSampleContext& ctx, LightFactors factors = LightFactors::Mean)
+      : p_(ctx.p), ns_(ctx.ns), factors_(factors) {
     if (!ctx.reflects && !ctx.transmits) return;
     if (ctx.reflects && ctx.transmits) {
       sides_ = ctx.bsdf ? Sides::Both : Sides::Free;
@@ -34,6 +45,7 @@ class LightReceiver {
   LightReceiver(const Vec3& center, float radius)
       : p_(center), radius_(radius), sides_(Sides::Free) {}
 
+  const Vec3& position() const { return p_; }
   /// False if no light can contribute.
   bool receives() const { return sides_ != Sides::None; }
   /// ≥ 0, finite; > 0 if any light of the node contributes.
@@ -45,19 +57,30 @@ class LightReceiver {
   /// False in a volume: light counts alike from everywhere.
   bool hasSurface() const { return sides_ != Sides::Free; }
 
- private:
-  enum class Sides : uint8_t { None, One, Both, Free };
   /// Least factor of either cosine.
   static constexpr float kFloor = 1e-3f;
+  /// Least squared distance from a box, relative to its squared radius: measured,
+  /// docs/light-bvh.md.
+  static constexpr float kNearest2 = 1.f / 32;
+  /// Least emission factor where θe is more than a right angle: wide emission is no cosine any
+  /// more, and what its edge sends is anyone's guess.
+  static constexpr float kWideEmissionFloor = 0.1f;
+
+ private:
+  enum class Sides : uint8_t { None, One, Both, Free };
   /// cos of max(0, θ − θb), by one square root for both sines.
   static float relax(float cosine, float sine2, float cosB, float sine2B) {
-    return cosine >= cosB ? 1.f : cosine * cosB + std::sqrt(sine2 * sine2B);
+    return cosB <= 0 || cosine >= cosB ? 1.f : cosine * cosB + std::sqrt(sine2 * sine2B);
   }
+  float emissionFactor(const LinearLightBVHNode& node, const Vec3& d, float invLength, float cosB,
+                       float sine2B) const;
+  static float meanSquaredDistance(const Vec3& d, const Vec3& half, float d2, float r2);
   float receiverFactor(const Vec3& d, float invLength, float cosB, float sine2B) const;
 
   Vec3 p_;
   Vec3 side_{0}, ns_{0, 0, 1};
   float radius_ = 0;
+  LightFactors factors_ = LightFactors::Mean;
   Sides sides_ = Sides::None;
 };
 
@@ -66,9 +89,48 @@ class LightReceiver {
 inline float LightReceiver::receiverFactor(const Vec3& d, float invLength, float cosB,
                                            float sine2B) const {
   if (sides_ == Sides::Free) return 1;
-  float cosine = dot(ns_, d) * invLength;
+  float cosine = std::clamp(dot(ns_, d) * invLength, -1.f, 1.f);
   if (sides_ == Sides::Both || (cosine < 0 && dot(side_, d) >= 0)) cosine = std::abs(cosine);
-  return std::max(relax(cosine, std::max(0.f, 1 - cosine * cosine), cosB, sine2B), kFloor);
+  if (factors_ == LightFactors::Thesis) return 1;
+  if (factors_ == LightFactors::Bound)
+    return std::max(kFloor, relax(cosine, std::max(0.f, 1 - cosine * cosine), cosB, sine2B));
+  const float m = capMean(cosB);
+  return std::max(kFloor, bothSides() ? meanAbsCosine(cosine, m) : meanCosine(cosine, m));
+}
+
+/// 0 where nothing is emitted towards the receiver.
+inline float LightReceiver::emissionFactor(const LinearLightBVHNode& node, const Vec3& d,
+                                           float invLength, float cosB, float sine2B) const {
+  if (node.allNormals()) return 1;
+  const Vec3 axis = node.axis();
+  const float scale = invLength / length(axis);
+  // The sine from the cross product: 1 − cos² has no digits for small angles.
+  float cosine = -dot(axis, d) * scale;
+  const float sine = length(cross(axis, d)) * scale;
+  if (node.twoSided()) cosine = std::abs(cosine);
+  const float h = node.halfSineO();
+  const float cosO = 1 - 2 * h * h, sinO = 2 * h * std::sqrt(1 - h * h), cosE = node.cosThetaE();
+  float bound = 1;
+  if (cosine < cosO) {  // θ > θo
+    bound = relax(cosine * cosO + sine * sinO, sqr(sine * cosO - cosine * sinO), cosB, sine2B);
+    if (bound < cosE - 1e-5f) return 0;
+  }
+  if (factors_ == LightFactors::Mean) {
+    const float m = capMean(cosO) * capMean(cosB);
+    bound = node.twoSided() ? meanAbsCosine(cosine, m) : meanCosine(cosine, m);
+  }
+  return std::max(cosE < 0 ? kWideEmissionFloor : kFloor, bound);
+}
+
+/// What 1/d² is on average over lights spread over a box: 1 / (distance of the box × distance of
+/// its far end). Exact but for a factor of π/2 for strips, where 1/d² of the centre falls short by
+/// length over distance, and too much, but bounded, for the inside of boxes.
+inline float LightReceiver::meanSquaredDistance(const Vec3& d, const Vec3& half, float d2,
+                                                float r2) {
+  const Vec3 toBox = glm::max(glm::abs(d) - half, Vec3(0));
+  const float least = std::max(r2 * kNearest2, FLT_MIN);
+  // The root of the factors, since their product may leave the range of floats.
+  return std::sqrt(std::max(least, dot(toBox, toBox))) * std::sqrt(std::max(least, d2 + r2));
 }
 
 inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
@@ -81,37 +143,18 @@ inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
   const float d2 = dot(d, d);
   float r2 = dot(half, half) * 1.00001f;  // so that rounding makes no angle θb too small
   if (radius_ > 0) r2 = sqr(std::sqrt(r2) + radius_);
-  if (!(d2 > std::max(r2, FLT_MIN))) {
-    if (d2 == 0 && r2 == 0) return 0;  // a point light sends nothing to where it is
-    // Inside of the sphere nothing is known of directions.
-    return static_cast<double>(node.intensity()) / static_cast<double>(std::max(r2, FLT_MIN));
-  }
-
-  const float invLength = 1 / std::sqrt(d2);
-  const float invSquared = invLength * invLength;
-  const float sine2B = std::min(r2 * invSquared, 1.f), cosB = std::sqrt(1 - sine2B);
-  float factor = receiverFactor(d, invLength, cosB, sine2B);
-  if (!node.allNormals()) {
-    const Vec3 axis = node.axis();
-    const float scale = invLength / length(axis);
-    // The sine from the cross product: 1 − cos² has no digits for small angles.
-    float cosine = -dot(axis, d) * scale;
-    float sine = length(cross(axis, d)) * scale;
-    if (node.twoSided()) cosine = std::abs(cosine);
-    const float h = node.halfSineO();
-    const float cosO = 1 - 2 * h * h, sinO = 2 * h * std::sqrt(1 - h * h);
-    const float cosE = node.cosThetaE();
-    if (cosine < cosO) {  // θ > θo
-      const float cosX = cosine * cosO + sine * sinO;
-      sine = sine * cosO - cosine * sinO;
-      const float cosPrime = relax(cosX, sine * sine, cosB, sine2B);
-      if (cosPrime < cosE - 1e-5f) return 0;
-      // Wide emission is no cosine any more: what its edge sends is anyone's guess.
-      factor *= std::max(cosPrime, cosE < 0 ? 0.1f : kFloor);
-    }
-  }
-  return static_cast<double>(node.intensity()) * static_cast<double>(factor) *
-         static_cast<double>(invSquared);
+  if (d2 == 0 && r2 == 0) return 0;  // a point light sends nothing to where it is
+  const float apart2 = std::max({FLT_MIN, r2, d2});
+  const float over =
+      factors_ == LightFactors::Mean ? meanSquaredDistance(d, half + radius_, d2, r2) : apart2;
+  const float invLength = 1 / std::sqrt(apart2);
+  const float sine2B = std::min(r2 * invLength * invLength, 1.f);
+  // Within the sphere lights may lie in any direction.
+  const float cosB = d2 > r2 ? std::sqrt(1 - sine2B) : 0;
+  const float factor =
+      receiverFactor(d, invLength, cosB, sine2B) * emissionFactor(node, d, invLength, cosB, sine2B);
+  return static_cast<double>(node.intensity()) * static_cast<double>(factor) /
+         static_cast<double>(over);
 }
 
 /// Importances of the two children of an inner node; both 0 if neither can contribute.

@@ -57,7 +57,25 @@ EmissionCone EmissionCone::of(const LightBounds& bounds) {
   return c;
 }
 
-bool EmissionCone::isFull() const { return thetaO >= (twoSided ? 0.5 * kPiD : kPiD) - 1e-6; }
+bool EmissionCone::isFull() const {
+  // What a node would round up to a full cone is one already.
+  return thetaO >= (twoSided ? 0.5 * kPiD - 1e-6 : kPiD - 0.06);
+}
+
+double EmissionCone::peakFactor() const {
+  if (isFull()) return 1;
+  const float m = capMean(static_cast<float>(std::cos(thetaO)));
+  return static_cast<double>(twoSided ? meanAbsCosine(1, m) : meanCosine(1, m));
+}
+
+double EmissionCone::meanFactor() const {
+  if (isFull()) return 1;
+  const double reach = thetaO + thetaE;
+  // Within a narrow cone the factor is hardly less than at the axis.
+  const double ofOneSide =
+      reach < 0.5 * kPiD ? std::max(peakFactor() * sqr(std::sin(reach)), 1e-6) : 1;
+  return (twoSided ? 0.5 : 0.25) * ofOneSide;
+}
 
 EmissionCone merge(const EmissionCone& a, const EmissionCone& b) {
   EmissionCone out;

@@ -27,7 +27,25 @@ struct EmissionCone {
   static EmissionCone of(const LightBounds& bounds);
   /// Normals in every direction.
   bool isFull() const;
+  /// The largest value of a node's emission factor (light_bvh_importance.h), and its mean over all
+  /// directions.
+  double peakFactor() const;
+  double meanFactor() const;
 };
+/// The mean of a cosine, 0 where negative, over unit vectors whose own mean has length `m` in [0,
+/// 1] and that direction's cosine: max(0, cosine) for m = 1, ¼ for m = 0, where they go all ways,
+/// and close to exact for caps in between.
+inline float meanCosine(float cosine, float m) {
+  const float c = cosine * m;
+  return 0.5f * (c + std::sqrt(c * c + 0.25f * std::max(0.f, 1 - m * m)));
+}
+/// The same of the absolute value.
+inline float meanAbsCosine(float cosine, float m) {
+  return std::sqrt(sqr(cosine * m) + 0.25f * std::max(0.f, 1 - m * m));
+}
+/// The length of the mean of unit vectors spread evenly over a cap.
+inline float capMean(float cosine) { return 0.5f + 0.5f * cosine; }
+
 /// A cone that holds both. The axis is that of the two axes' common cone; opposite two-sided
 /// cones stay as narrow as one of them.
 EmissionCone merge(const EmissionCone& a, const EmissionCone& b);
@@ -46,7 +64,8 @@ class alignas(32) LinearLightBVHNode {
   const Vec3& center() const { return center_; }
   /// Half the box's edges.
   Vec3 halfExtent() const { return {unpack(half_[0]), unpack(half_[1]), unpack(half_[2])}; }
-  /// Sum of the lights' LightBounds::intensity.
+  /// For one light, about LightBounds::intensity; for more, such that the mean over all directions
+  /// is the sum of theirs.
   float intensity() const { return intensity_; }
   bool isLeaf() const { return index_ >> 31; }
   LightId light() const { return index_ & kMaxIndex; }

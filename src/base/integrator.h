@@ -53,8 +53,15 @@ class Integrator {
 
 struct IntegratorContext : BuildContext {
   const Scene& scene;
+  using Settings = std::vector<std::pair<std::string, std::string>>;
   /// Makes the light distribution that the integrator's parameters name; `name` empty: the default.
-  std::function<std::unique_ptr<LightDistribution>(const std::string& name)> lightDistribution;
+  /// `settings` count instead of parameters of the same name.
+  std::unique_ptr<LightDistribution> lightDistribution(const std::string& name,
+                                                       const Settings& settings = {}) const {
+    return makeLightDistribution(name, settings);
+  }
+  std::function<std::unique_ptr<LightDistribution>(const std::string&, const Settings&)>
+      makeLightDistribution;
 };
 
 using IntegratorRegistry = Registry<Integrator, IntegratorContext>;

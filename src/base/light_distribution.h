@@ -20,6 +20,8 @@ struct LightSampleContext {
   /// other one.
   bool reflects = true, transmits = true;
   const Bsdf* bsdf = nullptr;  ///< null where there is no surface
+  /// In [0, 1]: how many lights the point is worth, relative to the most that a cut may have.
+  float worth = 1;
 
   LightSampleContext() = default;
   LightSampleContext(const SurfaceInteraction& at, const Bsdf& bsdf);
@@ -40,6 +42,8 @@ class LightDistribution {
   /// One light; none where no light can contribute. `u` in [0, 1).
   virtual std::optional<SampledLight> sample(const LightSampleContext& ctx, float u) const = 0;
   virtual float pmf(const LightSampleContext& ctx, LightId light) const = 0;
+  /// True if sampleCut() may draw more than one light.
+  virtual bool splits() const { return false; }
   /// Appends one light for each cluster of the cut; by default sample()'s.
   virtual void sampleCut(const LightSampleContext& ctx, float u, SampledLights& out) const;
   /// How often sampleCut() draws the light on average; by default pmf().

@@ -27,6 +27,7 @@ DirectLighting::DirectLighting(const Scene& scene, LightStrategy strategy,
     : scene_(scene),
       strategy_(strategy),
       distribution_(distribution),
+      splits_(distribution && distribution->splits()),
       lightCount_(strategy == LightStrategy::One && !distribution ? 0 : scene.lightTable.size()) {
   for (const auto& light : scene.lights) visible_ = visible_ || !light->isDelta();
   if (strategy == LightStrategy::One) return;
@@ -44,7 +45,8 @@ DirectLighting::DirectLighting(const Scene& scene, LightStrategy strategy,
 float DirectLighting::expectedDraws(const LightSampleContext& at, LightId light) const {
   if (strategy_ == LightStrategy::All)
     return static_cast<float>(samplesOf(*scene_.lightTable[light].light));
-  return distribution_ ? distribution_->pmf(at, light) : 0;
+  if (!distribution_) return 0;
+  return splits_ ? distribution_->expectedCount(at, light) : distribution_->pmf(at, light);
 }
 
 Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, SampleStream& stream,
@@ -52,6 +54,7 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
   if (strategy_ == LightStrategy::One) {
     const float choice = stream.next1D();
     const Vec2 u = stream.next2D();
+    if (splits_) return cutSamples(at, time, choice, u, rays);
     const auto chosen = distribution_->sample(at, choice);
     if (!chosen || !(chosen->pmf > 0)) return Rgb();
     return lightSample(at, time, *chosen, u, rays);
@@ -61,6 +64,23 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
     const int n = samplesOf(*scene_.lightTable[id].light);
     for (int i = 0; i < n; ++i)
       sum += lightSample(at, time, {id, static_cast<float>(n)}, stream.next2D(), rays);
+  }
+  return sum;
+}
+
+Rgb DirectLighting::cutSamples(const LightSampleContext& at, float time, float choice,
+                               const Vec2& u, RayCounts& rays) const {
+  // One a thread: a cut is drawn and used up before the next one.
+  thread_local SampledLights cut;
+  cut.clear();
+  distribution_->sampleCut(at, choice, cut);
+  Rgb sum;
+  Vec2 shifted = u;
+  for (const SampledLight& chosen : cut) {
+    sum += lightSample(at, time, chosen, shifted, rays);
+    // Roberts 2018: a sequence with few gaps whatever its length.
+    shifted += Vec2(0.7548776662f, 0.5698402910f);
+    shifted -= glm::floor(shifted);
   }
   return sum;
 }

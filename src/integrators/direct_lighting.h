@@ -9,7 +9,7 @@
 namespace lampyris {
 
 enum class LightStrategy : uint8_t {
-  One,  ///< one light, drawn from a LightDistribution
+  One,  ///< drawn from a LightDistribution: one light, or one of each cluster if it splits
   All,  ///< every light, as many samples as it asks for
 };
 
@@ -49,6 +49,9 @@ class DirectLighting {
  private:
   /// How often lightSamples() draws the light, on average.
   float expectedDraws(const LightSampleContext& at, LightId light) const;
+  /// One light of each cluster of the distribution's cut.
+  Rgb cutSamples(const LightSampleContext& at, float time, float choice, const Vec2& u,
+                 RayCounts& rays) const;
   Rgb lightSample(const LightSampleContext& at, float time, const SampledLight& chosen,
                   const Vec2& u, RayCounts& rays) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
@@ -58,6 +61,7 @@ class DirectLighting {
   const Scene& scene_;
   const LightStrategy strategy_;
   const LightDistribution* const distribution_;
+  const bool splits_;
   const uint32_t lightCount_;
   bool visible_ = false;
   int bsdfDraws_ = 1;

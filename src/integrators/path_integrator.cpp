@@ -128,6 +128,8 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
     path.from = LightSampleContext(at, bsdf);
+    // The noise of a vertex goes into the image times the throughput: that many lights less pay.
+    path.from.worth = std::min(path.throughput.maxComponent(), 1.f);
     path.radiance +=
         path.throughput * lighting_.lightSamples(path.from, path.ray.time, stream, state.rays);
   }

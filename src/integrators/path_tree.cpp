@@ -35,11 +35,8 @@ std::unique_ptr<Integrator> create(const PathTreeParameters& p, const Integrator
                      "parameter \"lightsamplestrategy\": expected a number in "
                      "[0, 1] or the name of a light sampler, got \"" +
                          p.strategy + "\"");
-  if (threshold < 1)
-    context.diagnostics.warn(context.location,
-                             "integrator \"pathtree\" does not split the light tree yet: one light "
-                             "is sampled at each vertex whatever \"lightsamplestrategy\" is");
-  return makePathIntegrator(settings, context.lightDistribution("bvh"));
+  return makePathIntegrator(settings,
+                            context.lightDistribution("bvh", {{"splitthreshold", p.strategy}}));
 }
 
 }  // namespace

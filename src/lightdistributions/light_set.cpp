@@ -14,6 +14,16 @@ constexpr double kLeastShare = 0.1;
 /// Elements of a light that one thread asks for bounds at a time.
 constexpr size_t kGrain = 8192;
 
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 float largestIrradiance(const Light& light) {
   float largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,7 +93,7 @@ bool InfiniteLights::contains(LightId light) const {
 }
 
 LightBVHAccel makeLightTree(const LightDistributionContext& context) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const LightTable& lights = context.lights;
   std::vector<LightBVHInput> inputs;
   for (size_t o = 0; o < lights.objectCount(); ++o) {
@@ -107,7 +117,6 @@ LightBVHAccel makeLightTree(const LightDistributionContext& context) {
   }
   LightBVHAccel tree(inputs);
   if (inputs.empty()) return tree;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const auto report = [&](const char* name, double value) {
     context.statistics.set("light tree", name, value);
   };
@@ -116,8 +125,19 @@ LightBVHAccel makeLightTree(const LightDistributionContext& context) {
   report("nodes", static_cast<double>(tree.stats().nodes));
   report("depth", tree.stats().depth);
   report("bytes", static_cast<double>(tree.stats().bytes));
-  report("build seconds", seconds.count());
+  report("build seconds", watch.seconds());
   return tree;
+}
+
+WideLightBVH makeWideLightTree(const LightBVHAccel& tree, const LightDistributionContext& context) {
+  const Stopwatch watch;
+  WideLightBVH wide(tree);
+  if (wide.empty()) return wide;
+  context.statistics.set("light tree", "wide nodes", static_cast<double>(wide.stats().nodes));
+  context.statistics.set("light tree", "wide depth", wide.stats().depth);
+  context.statistics.set("light tree", "wide bytes", static_cast<double>(wide.stats().bytes));
+  context.statistics.set("light tree", "widening seconds", watch.seconds());
+  return wide;
 }
 
 double infiniteShare(double infiniteIrradiance, double treeIrradiance) {

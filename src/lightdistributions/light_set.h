@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "accelerators/light_bvh.h"
+#include "accelerators/wide_light_bvh.h"
 #include "base/light_distribution.h"
 
 namespace lampyris {
@@ -40,6 +40,8 @@ class InfiniteLights {
 
 /// A tree of the table's lights with a position. Writes the tree's figures to the statistics.
 LightBVHAccel makeLightTree(const LightDistributionContext& context);
+/// Its wide form, with the statistics of that.
+WideLightBVH makeWideLightTree(const LightBVHAccel& tree, const LightDistributionContext& context);
 
 /// How often to choose among infinite lights rather than the tree, given the irradiance by either:
 /// in proportion, but each at least a tenth, since both are estimates without visibility.

@@ -74,12 +74,16 @@ IntegratorChoice chooseIntegrator(BuildState& state) {
 void buildIntegrator(BuildState& state, const IntegratorChoice& choice) {
   const ParameterSet set = choice.parameters.set();
   const Scene& scene = state.job.scene;
-  const auto lightDistribution = [&](const std::string& name) {
+  const auto lightDistribution = [&](const std::string& name,
+                                     const IntegratorContext::Settings& settings) {
     const char* const usual = scene.lightTable.size() > 1 ? kManyLights : kOneLight;
     const std::string used = name.empty() ? usual : name;
     const auto& plugin = findPlugin(lightDistributionRegistry(), used, set.location);
-    return plugin.create(
-        set, {state.context(set.location), scene.lightTable, scene.bounds, state.statistics});
+    ChangedParameters parameters(set);
+    for (const auto& [parameter, value] : settings)
+      parameters.add(*plugin.schema.find(parameter), value);
+    return plugin.create(parameters.set(), {state.context(set.location), scene.lightTable,
+                                            scene.bounds, state.statistics});
   };
   state.job.integrator =
       choice.plugin->create(set, {state.context(set.location), scene, lightDistribution});

@@ -78,12 +78,21 @@ TEST(Path, PathTreeIsPathWithTheTree) {
   path.render(4);
   EXPECT_EQ(tree.film().save(), path.film().save());
   EXPECT_EQ(tree.warnings(), "");
-  TinyScene split(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "0.5")"), kRoom));
-  EXPECT_NE(split.warnings().find("does not split"), std::string::npos) << split.warnings();
+  const char* const split = R"("pathtree" "string lightsamplestrategy" "0.5")";
+  EXPECT_EQ(TinyScene(tinyScene(roomView(split), kRoom)).warnings(), "");
+  expectSameMean(split, R"("path" "string lightsampler" "bvh")", kRoom, 64);
   EXPECT_THROW(
       TinyScene(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "1.5")"), kRoom)),
       SceneError);
   TinyScene(tinyScene(roomView(R"("pathtree" "string lightsamplestrategy" "uniform")"), kRoom));
+}
+
+TEST(Path, SplittingIsUnbiased) {
+  for (const char* splitting : {R"("float splitthreshold" .2 "integer maxcut" 2)",
+                                R"("float splitthreshold" .7 "integer maxcut" 8)",
+                                R"("float splitthreshold" 0 "integer maxcut" 100)"})
+    expectSameMean(R"("path" "string lightsampler" "uniform")",
+                   std::string(R"("path" "string lightsampler" "bvh" )") + splitting, kRoom, 64);
 }
 
 /// Mean of a view from above on a plane, with `between` at z = 1.

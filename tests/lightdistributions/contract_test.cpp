@@ -2,6 +2,7 @@
 /// What every light distribution promises (base/light_distribution.h), for each of the registry.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "light_scenes.h"
@@ -11,7 +12,16 @@
 namespace lampyris::test {
 namespace {
 
-class LightDistributionContract : public testing::TestWithParam<std::string> {
+/// A distribution of the registry, with parameters.
+struct Variant {
+  std::string label, name;
+  TestParameters::List parameters;
+  /// The most lights of a cut; one more where there are lights without a position.
+  size_t maxCut = 1;
+};
+void PrintTo(const Variant& v, std::ostream* out) { *out << v.label; }
+
+class LightDistributionContract : public testing::TestWithParam<Variant> {
  protected:
   static const std::vector<std::unique_ptr<LightScene>>& scenes() {
     static const auto all = smallLightScenes();
@@ -21,7 +31,7 @@ class LightDistributionContract : public testing::TestWithParam<std::string> {
     return scene.name + ", context " + std::to_string(context);
   }
   std::unique_ptr<LightDistribution> make(const LightScene& scene) {
-    return maker_.make(GetParam(), scene);
+    return maker_.make(GetParam().name, scene, GetParam().parameters);
   }
   static std::vector<double> pmfs(const LightDistribution& d, const LightSampleContext& c,
                                   size_t n) {
@@ -121,6 +131,7 @@ TEST_P(LightDistributionContract, EstimateAgreesWithSummation) {
       for (int i = 0; i < draws; ++i) {
         cut.clear();
         distribution->sampleCut(c, uniform(97 + k, static_cast<uint64_t>(i), 0), cut);
+        ASSERT_LE(cut.size(), GetParam().maxCut + 1);
         double value = 0;
         for (const SampledLight& s : cut) {
           ASSERT_EQ(s.pmf, distribution->expectedCount(c, s.light));
@@ -140,6 +151,30 @@ TEST_P(LightDistributionContract, EstimateAgreesWithSummation) {
   }
 }
 
+TEST_P(LightDistributionContract, CutsDrawAsOftenAsTheySay) {
+  const int draws = 4000;
+  for (const auto& scene : scenes()) {
+    const auto distribution = make(*scene);
+    const auto contexts = contextsFor(*scene, 13);
+    for (size_t k = 0; k < contexts.size(); ++k) {
+      const LightSampleContext& c = contexts[k];
+      std::vector<double> observed(scene->table.size(), 0.);
+      SampledLights cut;
+      for (int i = 0; i < draws; ++i) {
+        cut.clear();
+        distribution->sampleCut(c, uniform(131 + k, static_cast<uint64_t>(i), 0), cut);
+        for (const SampledLight& s : cut) ++observed[s.light];
+      }
+      for (LightId l = 0; l < observed.size(); ++l) {
+        // A cut holds a light at most a few times: in each draw of it, the count is bounded.
+        const double expected = draws * static_cast<double>(distribution->expectedCount(c, l));
+        EXPECT_NEAR(observed[l], expected, 8 * std::sqrt(expected) + 8)
+            << where(*scene, k) << ", light " << l;
+      }
+    }
+  }
+}
+
 TEST_P(LightDistributionContract, MillionCoincidentLights) {
   const auto scene = coincidentLights(1'000'000);
   const auto distribution = make(*scene);
@@ -148,7 +183,7 @@ TEST_P(LightDistributionContract, MillionCoincidentLights) {
     for (int i = 0; i < 50; ++i) {
       const auto s = distribution->sample(c, (static_cast<float>(i) + 0.5f) / 50);
       ASSERT_TRUE(s);
-      EXPECT_NEAR(s->pmf, 1e-6f, 1e-9f);
+      EXPECT_NEAR(s->pmf, 1e-6f, 1e-8f);  // nodes keep intensities to 8 bits
       EXPECT_EQ(s->pmf, distribution->pmf(c, s->light));
     }
   }
@@ -177,12 +212,42 @@ TEST_P(LightDistributionContract, SurvivesNonsense) {
       }
 }
 
-std::vector<std::string> names() {
-  std::vector<std::string> all;
-  for (const auto& e : lightDistributionRegistry().entries()) all.push_back(e.name);
+/// All of the registry with defaults, and the forms and splittings of the light BVH.
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const auto& e : lightDistributionRegistry().entries()) all.push_back({e.name, e.name, {}});
+  for (const char* factors : {"mean", "bound", "thesis"})
+    all.push_back(
+        {std::string("bvh_binary_") + factors, "bvh", {{"tree", "binary"}, {"factors", factors}}});
+  for (const auto& [threshold, maxCut] : {std::pair{"0.1", 2}, {"0.3", 5}, {"0.7", 16}, {"0", 64}})
+    all.push_back({std::string("bvh_split_") + threshold + "_" + std::to_string(maxCut),
+                   "bvh",
+                   {{"splitthreshold", threshold}, {"maxcut", std::to_string(maxCut)}},
+                   static_cast<size_t>(maxCut)});
+  for (Variant& v : all) std::replace(v.label.begin(), v.label.end(), '.', '_');
   return all;
 }
-INSTANTIATE_TEST_SUITE_P(All, LightDistributionContract, testing::ValuesIn(names()));
+TEST(BvhLightDistribution, RefusesWhatItsTreeCannot) {
+  DistributionMaker maker;
+  const auto scene = manyLights(10);
+  EXPECT_THROW(maker.make("bvh", *scene, {{"tree", "binary"}, {"splitthreshold", "0.5"}}),
+               SceneError);
+  EXPECT_THROW(maker.make("bvh", *scene, {{"factors", "bound"}}), SceneError);
+  EXPECT_THROW(maker.make("bvh", *scene, {{"tree", "ternary"}}), SceneError);
+  EXPECT_THROW(maker.make("bvh", *scene, {{"splitthreshold", "1.5"}}), SceneError);
+}
+
+TEST(BvhLightDistribution, ShadesAllLightsAtThresholdZero) {
+  DistributionMaker maker;
+  const auto scene = manyLights(50);
+  const auto d = maker.make("bvh", *scene, {{"splitthreshold", "0"}, {"maxcut", "50"}});
+  SampledLights cut;
+  d->sampleCut(contextsFor(*scene, 1)[0], 0.3f, cut);
+  EXPECT_EQ(cut.size(), 50u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LightDistributionContract, testing::ValuesIn(variants()),
+                         [](const auto& variant) { return variant.param.label; });
 
 }  // namespace
 }  // namespace lampyris::test

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "accelerators/wide_light_bvh.h"
+
+#include <algorithm>
+
+#include "accelerators/wide_light_bvh_builder.h"
+#include "accelerators/wide_light_bvh_importance.h"
+#include "accelerators/wide_light_bvh_way.h"
+
+namespace lampyris {
+namespace {
+
+constexpr size_t kWidth = WideLightBVHNode::kWidth;
+constexpr uint32_t kNotInTree = ~uint32_t{0};
+
+/// Takes one of the children with a probability in proportion to its weight; not all are 0. Leaves
+/// a fresh variate in `u`.
+size_t choose(const ChildWeights& weights, double& u) {
+  const double at = u * weights.total();
+  size_t chosen = 0;
+  for (const double sum : weights.upTo) chosen += static_cast<size_t>(sum <= at);
+  if (chosen == kWidth) {  // by rounding only
+    while (!(weights.of[--chosen] > 0)) continue;
+  }
+  const auto weight = static_cast<double>(weights.of[chosen]);
+  u = std::clamp((at - (weights.upTo[chosen] - weight)) / weight, 0., 1 - DBL_EPSILON / 2);
+  return chosen;
+}
+
+}  // namespace
+
+WideLightBVH::WideLightBVH(const LightBVHAccel& tree) {
+  for (const LinearLightBVHNode& n : tree.nodes())
+    if (n.isLeaf() && n.light() >= slotOf_.size()) slotOf_.resize(n.light() + 1, kNotInTree);
+  WideLightBVHBuilder(tree, *this).build();
+  stats_.lights = lights_.size();
+  stats_.nodes = nodes_.size();
+  stats_.bytes = nodes_.size() * sizeof(WideLightBVHNode) + lights_.size() * sizeof(LightId) +
+                 slotOf_.size() * sizeof(uint32_t);
+}
+
+std::optional<SampledLight> WideLightBVH::sample(const LightReceiver& at, double u) const {
+  if (nodes_.empty() || !at.receives()) return std::nullopt;
+  return descend(0, at, u, 1);
+}
+
+std::optional<SampledLight> WideLightBVH::descend(uint32_t number, const LightReceiver& at,
+                                                  double u, double count) const {
+  while (true) {
+    const WideLightBVHNode& node = nodes_[number];
+    const ChildWeights weights = importances(node, at);
+    if (!(weights.total() > 0)) return std::nullopt;
+    const size_t lane = choose(weights, u);
+    count *= static_cast<double>(weights.of[lane]) / weights.total();
+    if (node.isLeaf(lane))
+      return SampledLight{lights_[node.light(lane)], static_cast<float>(count)};
+    number = node.child(lane);
+  }
+}
+
+float WideLightBVH::pmf(const LightReceiver& at, LightId light) const {
+  const Way way(*this, light);
+  if (way.empty() || !at.receives()) return 0;
+  double pmf = 1;
+  way.follow(*this, [&](const WideLightBVHNode& node, size_t lane) {
+    const ChildWeights weights = importances(node, at);
+    const auto weight = static_cast<double>(weights.of[lane]);
+    pmf *= weight > 0 ? weight / weights.total() : 0;
+    return pmf > 0;
+  });
+  return static_cast<float>(pmf);
+}
+
+float WideLightBVH::rootImportance(const LightReceiver& at) const {
+  if (nodes_.empty() || !at.receives()) return 0;
+  const ChildWeights weights = importances(nodes_[0], at);
+  const double irradiance = weights.total() * weights.unit * static_cast<double>(strongest_);
+  return static_cast<float>(std::min(irradiance, static_cast<double>(FLT_MAX)));
+}
+
+}  // namespace lampyris

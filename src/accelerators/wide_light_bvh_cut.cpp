@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Splitting of the wide light BVH, see wide_light_bvh.h.
+//
+// A subtree gets a budget: how many lights it may give. With a budget of one it gives one light, by
+// descent. A larger budget b is shared out among the children: one whose share b·w/Σw is at least 1
+// gets the whole part of it (or 1 if it is not to be split any further), the others form as many
+// groups as there is budget left, side by side in space and alike in weight; a group gives one
+// light in all. So no light's chance is ever nought, the budget is never exceeded, and a strong
+// child is no longer left to chance.
+#include <algorithm>
+#include <cmath>
+
+#include "accelerators/wide_light_bvh.h"
+#include "accelerators/wide_light_bvh_importance.h"
+#include "accelerators/wide_light_bvh_way.h"
+
+namespace lampyris {
+namespace {
+
+constexpr size_t kWidth = WideLightBVHNode::kWidth;
+
+/// How a node's budget goes to its children.
+struct Shares {
+  std::array<uint8_t, kWidth> group;    ///< of each child; children of weight 0: any
+  std::array<uint32_t, kWidth> budget;  ///< of each group
+  std::array<double, kWidth> weight{};  ///< of each group
+  size_t groups = 0;
+
+  Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable);
+};
+
+Shares::Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable) {
+  const double scale = static_cast<double>(total) / weights.total();
+  uint32_t left = total;
+  double restWeight = 0;
+  uint32_t rest = 0;
+  unsigned strong = 0;
+  for (size_t i = 0; i < kWidth; ++i) {
+    const auto w = static_cast<double>(weights.of[i]);
+    const double share = w * scale;
+    if (!(share >= 1)) {
+      restWeight += w;
+      rest += w > 0;
+      continue;
+    }
+    strong |= 1u << i;
+    group[i] = static_cast<uint8_t>(groups);
+    weight[groups] = w;
+    const uint32_t own = splittable >> i & 1 ? static_cast<uint32_t>(share) : 1;
+    budget[groups++] = std::min(own, left);
+    left -= std::min(own, left);
+  }
+  if (rest == 0) return;
+  // The whole parts leave at least 1 for the rest, but for rounding.
+  const uint32_t restGroups = std::clamp(left, 1u, rest);
+  double before = 0;
+  int last = -1;
+  for (size_t i = 0; i < kWidth; ++i) {
+    const auto w = static_cast<double>(weights.of[i]);
+    if (!(w > 0) || (strong >> i & 1)) continue;
+    const double place = (before + 0.5 * w) / restWeight * restGroups;
+    const int mine = rest <= restGroups ? last + 1 : std::max(last, static_cast<int>(place));
+    if (mine != last) budget[groups] = 1, weight[groups++] = 0;
+    last = mine;
+    group[i] = static_cast<uint8_t>(groups - 1);
+    weight[groups - 1] += w;
+    before += w;
+  }
+}
+
+/// Takes one child of a group, as choose() does of all.
+size_t chooseIn(const Shares& shares, size_t group, const ChildWeights& weights, double& u) {
+  double at = u * shares.weight[group];
+  size_t chosen = kWidth;
+  double weight = 1;
+  for (size_t i = 0; i < kWidth; ++i) {
+    const auto w = static_cast<double>(weights.of[i]);
+    if (!(w > 0) || shares.group[i] != group) continue;
+    chosen = i, weight = w;
+    if (at < w) break;
+    at -= w;
+  }
+  u = std::clamp(at / weight, 0., 1 - DBL_EPSILON / 2);
+  return chosen;
+}
+
+}  // namespace
+
+// With distances spread evenly over d − r … d + r, the square of CV is 4 r² / (3 (d² − r²)).
+LightSplitting::LightSplitting(float threshold, uint32_t maxCut)
+    : maxCut_(threshold < 1 ? std::max(maxCut, 1u) : 1) {
+  const double cv = std::pow(std::max(1 - static_cast<double>(threshold), 1e-9), -4.) - 1;
+  ratio_ = static_cast<float>(std::min(0.75 * cv * cv, 1e30));
+}
+
+LightSplitting LightSplitting::forPoint(float worth) const {
+  LightSplitting s = *this;
+  s.maxCut_ = std::max(1u, static_cast<uint32_t>(std::lround(worth * static_cast<float>(maxCut_))));
+  return s;
+}
+
+class WideLightBVH::Cut {
+ public:
+  Cut(const LightReceiver& receiver, double first, float splitRatio, SampledLights& lights)
+      : at(receiver), ratio(splitRatio), out(lights), first_(first) {}
+
+  /// A variate for each cluster: a sequence of Weyl, stratified whatever their number.
+  double next() {
+    const double u = first_ + static_cast<double>(count_++) * 0.6180339887498949;
+    return u - std::floor(u);
+  }
+
+  const LightReceiver& at;
+  const float ratio;
+  SampledLights& out;
+
+ private:
+  double first_;
+  uint32_t count_ = 0;
+};
+
+uint32_t WideLightBVH::rootBudget(const LightReceiver& at, const LightSplitting& splitting) const {
+  const Vec3 d = center_ - at.position();
+  const bool isNear = radius2_ > splitting.ratio() * (dot(d, d) - radius2_);
+  return isNear ? splitting.maxCut() : 1;
+}
+
+void WideLightBVH::sampleCut(const LightReceiver& at, double u, const LightSplitting& splitting,
+                             SampledLights& out) const {
+  if (nodes_.empty() || !at.receives()) return;
+  if (splitting.takesAll(lights_.size())) {
+    for (const LightId light : lights_) out.push_back({light, 1});
+    return;
+  }
+  Cut cut(at, u, splitting.ratio(), out);
+  split(0, rootBudget(at, splitting), cut);
+}
+
+void WideLightBVH::split(uint32_t number, uint32_t budget, Cut& cut) const {
+  if (budget <= 1) {
+    if (const auto drawn = descend(number, cut.at, cut.next(), 1)) cut.out.push_back(*drawn);
+    return;
+  }
+  const WideLightBVHNode& node = nodes_[number];
+  const ChildWeights weights = importances(node, cut.at);
+  if (!(weights.total() > 0)) return;
+  const Shares shares(weights, budget,
+                      node.inner & nearChildren(node, cut.at.position(), cut.ratio));
+  for (size_t g = 0; g < shares.groups; ++g) {
+    double u = cut.next();
+    const size_t lane = chooseIn(shares, g, weights, u);
+    if (shares.budget[g] > 1) {
+      split(node.child(lane), shares.budget[g], cut);
+      continue;
+    }
+    const double count = static_cast<double>(weights.of[lane]) / shares.weight[g];
+    if (node.isLeaf(lane)) {
+      cut.out.push_back({lights_[node.light(lane)], static_cast<float>(count)});
+    } else if (const auto drawn = descend(node.child(lane), cut.at, u, count)) {
+      cut.out.push_back(*drawn);
+    }
+  }
+}
+
+float WideLightBVH::expectedCount(const LightReceiver& at, LightId light,
+                                  const LightSplitting& splitting) const {
+  const Way way(*this, light);
+  if (way.empty() || !at.receives()) return 0;
+  if (splitting.takesAll(lights_.size())) return 1;
+  uint32_t budget = rootBudget(at, splitting);
+  double count = 1;
+  way.follow(*this, [&](const WideLightBVHNode& node, size_t lane) {
+    const ChildWeights weights = importances(node, at);
+    const auto weight = static_cast<double>(weights.of[lane]);
+    if (!(weight > 0)) {
+      count = 0;
+    } else if (budget <= 1) {
+      count *= weight / weights.total();
+    } else {
+      const Shares shares(weights, budget,
+                          node.inner & nearChildren(node, at.position(), splitting.ratio()));
+      const size_t group = shares.group[lane];
+      count *= weight / shares.weight[group];
+      budget = shares.budget[group];
+    }
+    return count > 0;
+  });
+  return static_cast<float>(count);
+}
+
+}  // namespace lampyris

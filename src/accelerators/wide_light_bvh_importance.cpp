@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written with the vectors of the C++ Parallelism TS v2 (ISO/IEC TS 19570:2018, §9).
+#include "accelerators/wide_light_bvh_importance.h"
+
+#include <experimental/simd>
+
+namespace lampyris {
+
+namespace {
+
+namespace stdx = std::experimental;
+using Float8 = stdx::simd<float, stdx::simd_abi::deduce_t<float, WideLightBVHNode::kWidth>>;
+
+template <class T>
+Float8 load(const WideLightBVHNode::Lanes<T>& lanes) {
+  return Float8(lanes.data(), stdx::element_aligned);
+}
+
+struct Vec3x8 {
+  Float8 x, y, z;
+};
+Float8 dot(const Vec3x8& a, const Vec3x8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Float8 dot(const Vec3& a, const Vec3x8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// In the node's units, of the order of what rounding its positions does to d².
+constexpr float kLeastD2 = 1e-12f;
+
+/// True in the lanes that are in the set.
+Float8::mask_type lanesOf(uint8_t set) {
+  using Int8 = stdx::rebind_simd_t<int32_t, Float8>;
+  const Int8 bits([](auto i) { return 1 << i; });
+  return stdx::static_simd_cast<Float8>(bits & set) != 0;
+}
+
+/// Position of the children as a receiver sees them, in the node's units.
+struct Geometry {
+  Vec3 receiver;
+  Vec3x8 toCenter, half;
+  Float8 d2, r2;
+
+  Geometry(const WideLightBVHNode& node, const Vec3& p) {
+    // Beyond this, squares overflow and directions no longer change.
+    constexpr float kFar = 1e18f;
+    receiver = glm::clamp((p - node.origin) / node.extent, Vec3(-kFar), Vec3(kFar));
+    constexpr float kStep = 1.f / 65535, kByte = 1.f / 255;
+    toCenter = {load(node.center[0]) * kStep - receiver.x,
+                load(node.center[1]) * kStep - receiver.y,
+                load(node.center[2]) * kStep - receiver.z};
+    const auto unpackHalf = [&](size_t a) {
+      const Float8 root = load(node.half[a]) * kByte;
+      return 0.5f * root * root;
+    };
+    half = {unpackHalf(0), unpackHalf(1), unpackHalf(2)};
+    d2 = dot(toCenter, toCenter);
+    r2 = dot(half, half) * 1.00001f;  // so that rounding makes no angle θb too small
+  }
+};
+
+/// See LightReceiver::meanSquaredDistance().
+Float8 meanSquaredDistance(const Geometry& g) {
+  const auto beyond = [](const Float8& d, const Float8& half) {
+    return stdx::max(abs(d) - half, Float8(0));
+  };
+  const Vec3x8 toBox{beyond(g.toCenter.x, g.half.x), beyond(g.toCenter.y, g.half.y),
+                     beyond(g.toCenter.z, g.half.z)};
+  const Float8 least = stdx::max(g.r2 * LightReceiver::kNearest2, Float8(kLeastD2));
+  // The root of the factors, since their product may leave the range of floats.
+  return sqrt(stdx::max(dot(toBox, toBox), least)) * sqrt(stdx::max(g.d2 + g.r2, least));
+}
+
+/// cos of max(0, θ − θb): a bound.
+Float8 relax(const Float8& cosine, const Float8& sine2, const Float8& cosB, const Float8& sine2B) {
+  Float8 relaxed = cosine * cosB + sqrt(stdx::max(sine2 * sine2B, Float8(0)));
+  where(cosine >= cosB || cosB <= 0, relaxed) = 1;
+  return relaxed;
+}
+
+/// meanCosine() and meanAbsCosine().
+struct MeanCosine {
+  Float8 clamped, absolute;
+  MeanCosine(const Float8& cosine, const Float8& m) {
+    const Float8 c = cosine * m;
+    absolute = sqrt(c * c + 0.25f * stdx::max(1 - m * m, Float8(0)));
+    clamped = 0.5f * (c + absolute);
+  }
+};
+Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
+
+Float8 receiverFactor(const LightReceiver& at, const Geometry& g, const Float8& invLength,
+                      const Float8& cosB) {
+  Float8 cosine =
+      stdx::clamp(dot(at.shadingNormal(), g.toCenter) * invLength, Float8(-1), Float8(1));
+  if (!at.bothSides()) where(cosine < 0 && dot(at.side(), g.toCenter) >= 0, cosine) = -cosine;
+  const MeanCosine mean(cosine, capMeans(cosB));
+  return stdx::max(at.bothSides() ? mean.absolute : mean.clamped, Float8(LightReceiver::kFloor));
+}
+
+/// 0 where nothing is emitted towards the receiver.
+Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g, const Float8& cosB,
+                      const Float8& sine2B) {
+  const Vec3x8 axis{load(node.axis[0]), load(node.axis[1]), load(node.axis[2])};
+  // Lanes without an axis, and those at the point, divide by zero; they are overwritten below.
+  Float8 cosine = -dot(axis, g.toCenter) / sqrt(dot(axis, axis) * stdx::max(g.d2, g.r2));
+  const auto twoSided = lanesOf(node.twoSided);
+  where(twoSided, cosine) = abs(cosine);
+  const Float8 sine = sqrt(stdx::max(1 - cosine * cosine, Float8(0)));
+  const Float8 h = load(node.halfSineO) * (1.f / 255);
+  const Float8 cosO = 1 - 2 * h * h, sinO = 2 * h * sqrt(stdx::max(1 - h * h, Float8(0)));
+  const Float8 cosE = load(node.cosineE) * (1.f / 127) - 1;
+
+  const MeanCosine mean(cosine, capMeans(cosO) * capMeans(cosB));
+  Float8 factor = mean.clamped;
+  where(twoSided, factor) = mean.absolute;
+  Float8 least = LightReceiver::kFloor;
+  where(cosE < -1e-3f, least) = LightReceiver::kWideEmissionFloor;
+  factor = stdx::max(factor, least);
+
+  const Float8 sineX = sine * cosO - cosine * sinO;
+  const Float8 bound = relax(cosine * cosO + sine * sinO, sineX * sineX, cosB, sine2B);
+  where(cosine < cosO && bound < cosE - 1e-4f, factor) = 0;
+  where(lanesOf(node.allNormals), factor) = 1;
+  return factor;
+}
+
+}  // namespace
+
+// The vectors' operators are functions to the compiler, some of them too large to be inlined
+// unasked.
+[[gnu::flatten]] ChildWeights importances(const WideLightBVHNode& node, const LightReceiver& at) {
+  const Geometry g(node, at.position());
+  const Float8 inv2 = 1 / stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2)));
+  const Float8 invLength = sqrt(inv2);
+  const Float8 sine2B = stdx::min(g.r2 * inv2, Float8(1));
+  Float8 cosB = sqrt(1 - sine2B);
+  // Within the sphere lights may lie in any direction.
+  where(g.d2 <= g.r2, cosB) = 0;
+  Float8 factor = 1;
+  if (at.hasSurface()) factor = receiverFactor(at, g, invLength, cosB);
+  if (node.allNormals != 0xff) factor *= emissionFactor(node, g, cosB, sine2B);
+  if (!at.bothSides()) {
+    // The box's corner furthest in front; some ulps for the rounding of the terms.
+    const Vec3 n = glm::abs(at.side());
+    const Float8 size = n.x * abs(g.toCenter.x) + n.y * abs(g.toCenter.y) + n.z * abs(g.toCenter.z);
+    where(dot(at.side(), g.toCenter) + dot(n, g.half) < -1e-6f * size, factor) = 0;
+  }
+  // The distance as the unit far from the node: neither end of the floats is near.
+  const float unit2 = std::max(1.f, glm::dot(g.receiver, g.receiver));
+  // Intensities are the upper halves of floats: moved there, they are floats.
+  alignas(32) WideLightBVHNode::Lanes<uint32_t> bits;
+  for (size_t i = 0; i < bits.size(); ++i) bits[i] = static_cast<uint32_t>(node.intensity[i]) << 16;
+  const Float8 intensity(std::bit_cast<WideLightBVHNode::Lanes<float>>(bits).data(),
+                         stdx::element_aligned);
+  Float8 weights = intensity * factor * unit2 / meanSquaredDistance(g);
+  where(!(weights > 0), weights) = 0;  // not a number: the point isn't one either
+
+  ChildWeights out;
+  weights.copy_to(out.of.data(), stdx::vector_aligned);
+  double sum = 0;
+  for (size_t i = 0; i < out.of.size(); ++i) out.upTo[i] = sum += static_cast<double>(out.of[i]);
+  const auto extent = static_cast<double>(node.extent);
+  out.unit = 1 / (extent * extent * static_cast<double>(unit2));
+  return out;
+}
+
+[[gnu::flatten]] uint8_t nearChildren(const WideLightBVHNode& node, const Vec3& p, float ratio) {
+  const Geometry g(node, p);
+  const auto isNear = g.r2 > ratio * (g.d2 - g.r2);
+  uint8_t set = 0;
+  for (size_t i = 0; i < WideLightBVHNode::kWidth; ++i)
+    set = static_cast<uint8_t>(set | (isNear[i] ? 1u << i : 0u));
+  return set;
+}
+
+}  // namespace lampyris
