@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a suite of scenes and variants at equal time and writes what came out: OUT/results.json.
+
+usage: equal_time.py SUITE.json [--out DIR] ...      then: report.py OUT/results.json -o report.html
+
+Interrupted, it goes on where it was when it is started again. docs/evaluation.md has the method."""
+import argparse
+import datetime
+import json
+import os
+import sys
+
+from evaluation import images, machine, schedule, suite as suites, summary
+from evaluation.runs import Failed, Runner
+
+
+def arguments():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("suite", help="suite file")
+    p.add_argument("--out", help="folder for images, records and results (build/bench/NAME)")
+    p.add_argument("--binary", default=os.path.join(suites.ROOT, "build", "release", "lampyris"))
+    p.add_argument("--scenes", help="only these, separated by commas")
+    p.add_argument("--seconds", type=float, help="of each run, instead of the suite's")
+    p.add_argument("--repetitions", type=int, help="instead of the suite's")
+    p.add_argument("--reference-seconds", type=float, help="of each half of a reference, instead of the suite's")
+    p.add_argument("--threads", type=int, help="of the program, instead of the suite's; 0: all")
+    return p.parse_args()
+
+
+def selected(suite, args):
+    """The suite as the command line changes it."""
+    if args.scenes:
+        names = args.scenes.split(",")
+        unknown = set(names) - {s.name for s in suite.scenes}
+        if unknown: raise suites.SuiteError("no scene '%s' in this suite" % "', '".join(sorted(unknown)))
+        suite.scenes = [s for s in suite.scenes if s.name in names]
+    if args.repetitions: suite.repetitions = args.repetitions
+    if args.seconds:
+        suite.seconds = args.seconds
+        for s in suite.scenes: s.seconds = 0
+    if args.reference_seconds:
+        for r in [suite.reference, *(s.reference for s in suite.scenes if s.reference)]:
+            r.seconds, r.spp = args.reference_seconds, 0
+    if args.threads is not None: suite.threads = args.threads
+    suite.threads = suite.threads or os.cpu_count()
+    return suite
+
+
+def measure(suite, runner):
+    """Yields the summary of one scene after another."""
+    for s in suite.scenes:
+        runner.say(s.name)
+        file = runner.scene_file(s)
+        try: references = schedule.reference_halves(runner, suite, s, file)
+        except Failed as e:
+            runner.say("  no reference, so the scene is left out: %s" % e)
+            continue
+        found = schedule.scene_runs(runner, suite, s, file)
+        yield summary.scene(suite, s, runner.scene_hash(file), references, found,
+                            lambda name: images.load(runner.path(name)), suite.threads)
+
+
+def main():
+    args = arguments()
+    try: suite = selected(suites.read(args.suite), args)
+    except (suites.SuiteError, OSError) as e: sys.exit("error: %s" % e)
+    out = args.out or os.path.join(suites.ROOT, "build", "bench", suite.name)
+    runner = Runner(args.binary, out, suite.threads, lambda text: print(text, flush=True))
+    results = {"suite": suite.name, "title": suite.title or suite.name, "description": suite.description,
+               "date": datetime.date.today().isoformat(), "seconds": suite.seconds, "threads": suite.threads,
+               "repetitions": suite.repetitions, "machine": machine.machine(), "build": machine.build(args.binary),
+               "scenes": []}
+    path = runner.path("results.json")
+    try:
+        for s in measure(suite, runner):
+            results["scenes"].append(s)
+            # After each scene, so that there is something to look at before the end.
+            with open(path + ".tmp", "w") as f: json.dump(results, f, indent=1)
+            os.replace(path + ".tmp", path)
+    except KeyboardInterrupt: sys.exit("interrupted; the same command goes on from here")
+    if not results["scenes"]: sys.exit("error: no scene could be measured")
+    print(path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tables of a page."""
+import html
+import math
+
+from .measures import METRICS
+from .plots import marker, number
+
+METRIC_TITLES = {"trimmed": "trimmed relMSE", "relmse": "relMSE", "mse": "MSE"}
+SUSPICIOUS_Z = 4
+
+
+def swatch(colour):
+    return '<svg class="swatch" viewBox="-7 -7 14 14" aria-hidden="true"><g class="k%d">%s</g></svg>' % (
+        colour, marker(colour, 0, 0, 5))
+
+
+def cell(content, small="", kind=""):
+    return "<td%s>%s%s</td>" % (' class="%s"' % kind if kind else "", content, "<small>%s</small>" % small if small else "")
+
+
+def times(estimate):
+    """A ratio with its interval."""
+    if not estimate: return "–", ""
+    interval = "%s – %s" % tuple(number(v, 2) for v in estimate["ci"]) if estimate["ci"] else ""
+    return number(estimate["value"]) + "×", interval
+
+
+def size(number_of_bytes):
+    if number_of_bytes is None: return "–"
+    exponent = min(3, int(math.log2(max(1, number_of_bytes)) // 10))
+    return "%s %s" % (number(number_of_bytes / 2 ** (10 * exponent)), ("B", "KiB", "MiB", "GiB")[exponent])
+
+
+def bias_cell(bias):
+    if bias["z"] is None: return cell("%.4f" % bias["ratio"])
+    kind = "doubt" if abs(bias["z"]) > SUSPICIOUS_Z else ""
+    return cell("%.4f" % bias["ratio"], "z = %s%.1f" % ("−" if bias["z"] < 0 else "+", abs(bias["z"])), kind)
+
+
+def best_of(variants, value):
+    """The name of the variant with the largest value, if there is more than one to compare."""
+    values = {v["name"]: value(v) for v in variants if v["runs"] and value(v) is not None}
+    return max(values, key=values.get) if len(values) > 1 else None
+
+
+def variant_rows(scene, colour_of, cut_names):
+    best = best_of(scene["variants"], lambda v: (v["against_base"]["trimmed"] or {}).get("value"))
+    columns = 10 + len(cut_names)
+    for v in scene["variants"]:
+        head = '<tr><th scope="row">%s%s</th>' % (swatch(colour_of[v["name"]]), html.escape(v["title"]))
+        if not v["runs"]:
+            yield head + '<td class="why" colspan="%d">failed: %s</td></tr>' % (
+                columns - 1, html.escape(v["failed"].strip().split("\n")[-1][:300]))
+            continue
+        cells = [cell(number(v["seconds"]) + " s"), cell(number(v["spp"])), cell(number(v["samples_per_second"]))]
+        for m in METRICS:
+            e = v["errors"][m]
+            cells.append(cell(number(e["value"]), "%s – %s" % tuple(number(x, 2) for x in e["ci"]) if e["ci"] else ""))
+        cells.append(bias_cell(v["bias"]))
+        cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if v["name"] == best else ""))
+        equal = v["equal_samples"]
+        cells.append(cell(*times(equal["trimmed"] if equal else None)))
+        cells += [cell(number(v["light_cut"].get(n))) for n in cut_names]
+        cells.append(cell(size(v["memory"]), number(v["load_seconds"], 2) + " s"))
+        yield head + "".join(cells) + "</tr>"
+
+
+def scene_table(scene, colour_of):
+    cut_names = sorted({n for v in scene["variants"] if v["runs"] for n in v["light_cut"]})
+    equal = next((v["equal_samples"]["spp"] for v in scene["variants"] if v["equal_samples"]), None)
+    heads = ["time", "spp", "samples/s", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
+             "at %d spp" % equal if equal else "at equal spp", *map(html.escape, cut_names), "memory, load"]
+    floor = scene["reference"]["floor"]
+    caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the reference's, "
+               "z its distance from 1 in standard deviations. <b>At equal time</b> and <b>at equal spp</b> are by how much "
+               "the error, %s, falls below that of <i>%s</i>; time counts as cost. The reference's own error: %s." % (
+                   METRIC_TITLES["trimmed"], html.escape(scene["base"]),
+                   ", ".join("%s %s" % (METRIC_TITLES[m], number(floor[m], 2)) for m in METRICS)))
+    return '<div class="scroll"><table><caption>%s</caption><thead><tr><th>light sampler</th>%s</tr></thead><tbody>%s</tbody></table></div>' % (
+        caption, "".join("<th>%s</th>" % h for h in heads), "".join(variant_rows(scene, colour_of, cut_names)))
+
+
+def geometric_means(scenes, titles, base):
+    """Over the scenes that have this base, and where every variant listed in `titles` was measured."""
+    logs = {n: [] for n in titles}
+    for s in scenes:
+        ratios = {v["name"]: v["against_base"]["trimmed"] for v in s["variants"] if v["runs"]}
+        if s["base"] == base and all(ratios.get(n) for n in titles):
+            for n in titles: logs[n].append(math.log(ratios[n]["value"]))
+    counts = {len(v) for v in logs.values()}
+    if counts == {0}: return {}, 0
+    return {n: math.exp(sum(v) / len(v)) for n, v in logs.items()}, counts.pop()
+
+
+def overview(scenes, titles, colour_of, base):
+    rows = []
+    for k, s in enumerate(scenes):
+        by_name = {v["name"]: v for v in s["variants"]}
+        best = best_of(s["variants"], lambda v: (v["against_base"]["trimmed"] or {}).get("value"))
+        cells = []
+        for n in titles:
+            v = by_name.get(n)
+            if not v: cells.append(cell(""))
+            elif not v["runs"]: cells.append(cell("failed", kind="why"))
+            elif n == s["base"]: cells.append(cell("1", kind="best" if n == best else ""))
+            else: cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if n == best else ""))
+        rows.append('<tr><th scope="row"><a href="#scene-%d">%s</a></th><td>%s</td>%s</tr>' % (
+            k + 1, html.escape(s["title"]), number(s["lights"], 7), "".join(cells)))
+    means, count = geometric_means(scenes, titles, base)
+    foot = '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
+        count, "".join(cell("%s×" % number(means[n])) for n in titles)) if count > 1 else ""
+    heads = "".join("<th>%s%s</th>" % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
+    return ('<div class="scroll"><table><caption>How many times less time each needs for the same error (trimmed relMSE) as the '
+            "scene's base, the one with 1: the median over pairs of runs, below it the 95 %% interval. Bold: the best."
+            "</caption><thead><tr><th>scene</th><th>lights</th>%s</tr></thead><tbody>%s</tbody>%s</table></div>" % (
+                heads, "".join(rows), foot))
