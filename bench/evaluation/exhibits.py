@@ -73,8 +73,8 @@ class Exhibits:
     def slider(self, left, right):
         """Two of the images (by number in names()) with a border to move."""
         def choice(place, chosen):
-            options = "".join('<option value="%s"%s>%s</option>' % (c, " selected" if k == chosen else "", html.escape(t))
-                              for k, (c, t) in enumerate(self.names()))
+            options = "".join('<option value="%s"%s>%s</option>' % (
+                c, " selected" if k == chosen else "", html.escape(t)) for k, (c, t) in enumerate(self.names()))
             return '<select name="%s" aria-label="%s image">%s</select>' % (place, place, options)
         windows = "".join(
             '<div class="window" style="left:%.2f%%;top:%.2f%%;width:%.2f%%;height:%.2f%%"><span>%s</span></div>' % (
@@ -82,8 +82,9 @@ class Exhibits:
             for k, (x, y, s) in enumerate(self.details))
         panes = "".join('<div class="picture %s %s"></div>' % (place, self.names()[k][0])
                         for place, k in (("right", right), ("left", left)))
-        return ('<div class="comparison"><div class="choose">%s%s</div><div class="compare" style="aspect-ratio:%d/%d">%s%s'
-                '<div class="bar"></div><input type="range" min="0" max="100" step="0.5" value="50" '
+        return ('<div class="comparison"><div class="choose">%s%s</div>'
+                '<div class="compare" style="aspect-ratio:%d/%d">%s%s<div class="bar"></div>'
+                '<input type="range" min="0" max="100" step="0.5" value="50" '
                 'aria-label="border between the images"></div></div>' % (
                     choice("left", left), choice("right", right), self.width, self.height, panes, windows))
 
@@ -109,10 +110,8 @@ class Exhibits:
     def scale(self):
         stops = ",".join("#%02x%02x%02x" % tuple(c) for c in colours.palette()[::7])
         span = np.log(self.high / self.low)
-        ticks = [v for e in range(-5, 8) for v in [10. ** e] if self.low <= v <= self.high]
-        ticks = sorted({self.low, self.high, *ticks})
-        marks = "".join('<span style="left:%.1f%%">%s %%</span>' % (100 * np.log(v / self.low) / span, number(100 * v, 1))
-                        for v in ticks if v in (self.low, self.high) or
-                        .12 < np.log(v / self.low) / span < .88)
+        at = {v: np.log(v / self.low) / span for v in [self.low, self.high, *(10. ** e for e in range(-5, 8))]}
+        marks = "".join('<span style="left:%.1f%%">%s %%</span>' % (100 * t, number(100 * v, 1))
+                        for v, t in at.items() if t in (0, 1) or .12 < t < .88)
         return ('<div class="scale"><span>relative error</span><div class="ramp picture" '
                 'style="background-image:linear-gradient(90deg,%s)">%s</div></div>' % (stops, marks))

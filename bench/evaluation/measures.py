@@ -31,8 +31,8 @@ def errors(image, reference):
 def floor_of(halves):
     """The error of the mean of two independent halves, which is half their difference."""
     a, b = halves
-    mean = (a + b) / 2
-    return errors(mean + (a - b) / 2, mean)
+    middle = (a + b) / 2
+    return errors(a, middle)
 
 
 def over_floor(error, floor):
@@ -59,23 +59,27 @@ def bias(images, halves):
 
 
 def bootstrap(samples, statistic, seed=1):
-    """The statistic of the samples (first axis) and its percentile interval over resamplings; no interval
-    for fewer than two."""
+    """The statistic of the samples and its percentile interval over resamplings; no interval for fewer than two.
+
+    The last axis of the samples is the runs, and it is over this that the statistic goes."""
     samples = np.asarray(samples, float)
-    value = float(statistic(samples))
-    if len(samples) < 2: return {"value": value, "ci": None}
-    rng = np.random.default_rng(seed)
-    drawn = [statistic(samples[rng.integers(0, len(samples), len(samples))]) for _ in range(BOOTSTRAPS)]
+    value, count = float(statistic(samples)), samples.shape[-1]
+    if count < 2: return {"value": value, "ci": None}
+    drawn = np.random.default_rng(seed).integers(0, count, (BOOTSTRAPS, count))
     tail = 50 * (1 - CONFIDENCE)
-    return {"value": value, "ci": [float(np.percentile(drawn, tail)), float(np.percentile(drawn, 100 - tail))]}
+    return {"value": value, "ci": [float(v) for v in np.percentile(statistic(samples[..., drawn]), (tail, 100 - tail))]}
+
+
+def mean(samples):
+    return bootstrap(samples, lambda s: s.mean(axis=-1))
 
 
 def efficiency(error_list, seconds):
     """1 / (mean error x mean time)."""
-    return bootstrap(np.column_stack([error_list, seconds]), lambda s: 1 / (s[:, 0].mean() * s[:, 1].mean()))
+    return bootstrap([error_list, seconds], lambda s: 1 / s.mean(axis=-1).prod(axis=0))
 
 
 def ratio_of_pairs(base, other):
     """How many times more efficient `other` is: the median over pairs of cost(base) / cost(other)."""
     ratios = np.asarray(base, float) / np.asarray(other, float)
-    return {**bootstrap(ratios, np.median), "pairs": len(ratios)}
+    return {**bootstrap(ratios, lambda s: np.median(s, axis=-1)), "pairs": len(ratios)}

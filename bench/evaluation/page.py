@@ -6,7 +6,7 @@ from collections import Counter
 
 from . import plots, tables
 from .exhibits import Exhibits
-from .plots import number
+from .plots import count, number
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 COLOURS = 7  # in page.css
@@ -17,12 +17,12 @@ def _file(name):
     with open(os.path.join(HERE, name), encoding="utf-8") as f: return f.read()
 
 
-def _series(scene, colour_of, x, bar):
+def _series(scene, colour_of, x):
     """The curves of a scene's variants over `x`, and the equal-time runs as a mark with an interval."""
     for v in scene["variants"]:
         points = [(p[x], p["trimmed"]) for p in v["curve"]]
         mark = None
-        if bar and v["runs"]:
+        if v["runs"]:
             e = v["errors"]["trimmed"]
             mark = (v[x], e["value"], *(e["ci"] or (e["value"], e["value"])))
         if points or mark: yield {"title": v["title"], "colour": colour_of[v["name"]], "points": points, "bar": mark}
@@ -34,47 +34,69 @@ def _mark(variant, colour_of):
 
 def _bars(scene, colour_of):
     return [{"title": v["title"], "marks": [_mark(v, colour_of)]} for v in scene["variants"]
-            if v["runs"] and v["against_base"]["trimmed"]]
+            if v["runs"] and v["name"] != scene["base"] and v["against_base"]["trimmed"]]
+
+
+def _worths(scene, colour_of):
+    """What one sample costs and leaves of the error, the base's being 1."""
+    runs = [v for v in scene["variants"] if v["runs"] and v["against_base"]["trimmed"]]
+    base = next((v for v in runs if v["name"] == scene["base"]), None)
+    if not base: return
+    for v in runs:
+        time = v["seconds"] / v["spp"] / (base["seconds"] / base["spp"])
+        # So that its place on the plot is the efficiency that the table tells.
+        yield {"title": v["title"], "colour": colour_of[v["name"]], "time": time,
+               "error": 1 / (v["against_base"]["trimmed"]["value"] * time)}
+
+
+def _figure(content, title, text):
+    return "<figure>%s<figcaption><b>%s</b>%s</figcaption></figure>" % (content, title, text)
 
 
 def _plots(scene, colour_of):
     error, floor = tables.METRIC_TITLES["trimmed"], scene["reference"]["floor"]["trimmed"]
-    over_time = plots.convergence(list(_series(scene, colour_of, "seconds", True)), "seconds", error, floor)
-    over_samples = plots.convergence(list(_series(scene, colour_of, "spp", True)), "samples per pixel", error, floor)
-    bars = plots.intervals(_bars(scene, colour_of), "efficiency, as a multiple of that of %s" % scene["base"])
-    return ('<div class="pair"><figure>%s<figcaption><b>Error over time.</b> Small marks: one render each; large, hollow marks: '
-            "the runs of the table, with the 95 %% interval of their mean. Further left is better.</figcaption></figure>"
-            "<figure>%s<figcaption><b>Error over samples.</b> The same renders: what a sample is worth, whatever it costs."
-            "</figcaption></figure></div><figure>%s<figcaption><b>Efficiency</b>, 1 / (error × time), with 95 %% intervals over pairs "
-            "of runs.</figcaption></figure>" % (over_time, over_samples, bars))
+    efficiency = "efficiency, as a multiple of that of %s" % scene["base"]
+    return '<div class="pair">%s</div>' % "".join((
+        _figure(plots.convergence(list(_series(scene, colour_of, "seconds")), "seconds", error, floor),
+                "Error over time.", " Small marks: renders with given numbers of samples; large, hollow ones: the runs "
+                "of the table, with the 95 % interval of their mean. Further left is better."),
+        _figure(plots.convergence(list(_series(scene, colour_of, "spp")), "samples per pixel", error, floor),
+                "Error over samples.", " The same renders: what a sample is worth, whatever it costs."),
+        _figure(plots.intervals(_bars(scene, colour_of), efficiency),
+                "Efficiency", ", 1 / (error × time), with 95 % intervals over pairs of runs."),
+        _figure(plots.worth(list(_worths(scene, colour_of))), "What a sample costs and what it is worth.",
+                " On a line all are equally efficient; further down and left is better.")))
 
 
 def _pictures(shown):
-    return ('<figure class="exhibit"><div>%s<figcaption><b>One run of each at equal time.</b> Choose two and move the border. The '
-            "frames are the details on the right.</figcaption></div><div>%s<figcaption><b>Details</b>, where the base errs most."
-            "</figcaption></div></figure><figure>%s<figcaption><b>Relative error</b> of each pixel, the root mean square over the "
-            "runs.</figcaption></figure>" % (shown.slider(1, len(shown.variants)), shown.enlarged(), shown.error_maps()))
+    one = _figure(shown.slider(1, len(shown.variants)), "One run of each at equal time.",
+                  " Choose two and move the border. The frames are the details beside it.")
+    return '<div class="exhibit">%s%s</div>%s' % (
+        one, _figure(shown.enlarged(), "Details", ", where the base errs most."),
+        _figure(shown.error_maps(), "Relative error", " of each pixel, the root mean square over the runs."))
 
 
 def _warnings(scene):
     runs = [v for v in scene["variants"] if v["runs"]]
-    if any(v["cpu_share"] is not None and v["cpu_share"] < BUSY for v in runs):
-        yield ("The program got only %s of its processors: the machine was busy with other things, so times and times' ratios are "
-               "not to be trusted." % ", ".join("%.0f %%" % (100 * v["cpu_share"]) for v in runs))
+    shares = [v["cpu_share"] for v in runs if v["cpu_share"] is not None]
+    if shares and min(shares) < BUSY:
+        yield ("The program got only %.0f to %.0f %% of its processors: the machine was busy with other things, and "
+               "times are not to be trusted." % (100 * min(shares), 100 * max(shares)))
     if any(abs(v["bias"]["z"] or 0) > tables.SUSPICIOUS_Z for v in runs):
-        yield "A mean differs from the reference's by more than chance explains: a sampler is biased, or the reference is."
+        yield "A mean differs from the reference's by more than chance: a light sampler is biased, or the reference is."
     if any(v["against_base"]["trimmed"] is None for v in runs):
         yield "The reference is too noisy for this: an error is less than twice the reference's own."
 
 
 def _facts(scene):
-    facts = ["%s lights" % number(scene["lights"], 7), "%s triangles" % number(scene["triangles"], 7)]
+    facts = ["%s lights" % count(scene["lights"]), "%s triangles" % count(scene["triangles"])]
     if scene["tree_bytes"]:
-        facts.append("light tree of %s built in %s s" % (tables.size(scene["tree_bytes"]), number(scene["tree_seconds"], 2)))
+        facts.append("light tree of %s, built in %s s" % (
+            tables.size(scene["tree_bytes"]), number(scene["tree_seconds"], 2)))
     facts.append("%s s a run" % number(scene["seconds"]))
     reference = scene["reference"]
     facts.append("reference: two halves of %s spp, %s" % (
-        " and ".join(number(s) for s in reference["spp"]), " ".join(reference["define"]) or "as the scene says"))
+        " and ".join(count(s) for s in reference["spp"]), " ".join(reference["define"]) or "as the scene says"))
     return " · ".join(html.escape(f) for f in facts)
 
 
@@ -101,7 +123,9 @@ def _forest(scenes, colour_of, base):
         marks = [_mark(v, colour_of) for v in s["variants"]
                  if v["runs"] and v["name"] != s["base"] and v["against_base"]["trimmed"]]
         if marks and s["base"] == base: rows.append({"title": s["title"], "marks": marks})
-    return plots.intervals(rows, "efficiency, as a multiple of that of %s" % base, 280, 940)
+    drawn = plots.intervals(rows, "efficiency, as a multiple of that of %s" % base, 280, 940)
+    return _figure(drawn, "Efficiency in all scenes",
+                   " on a logarithmic axis, with 95 % intervals over pairs of runs.")
 
 
 def page(results, load):
@@ -121,10 +145,11 @@ def page(results, load):
 %s</style></head><body>
 <header><div class="kicker">Lampyris · equal-time comparison</div><h1>%s</h1><p class="lead">%s</p></header>
 <div class="meta">%s%s</div>
-%s<figure>%s<figcaption><b>Efficiency in all scenes</b> on a logarithmic axis, with 95 %% intervals over pairs of runs.</figcaption></figure>
+%s%s
 %s
-<footer>relMSE: mean of (I − R)² / (R² + ε), ε = (1 %% of the reference's mean)². Trimmed: without the 0.1 %% of pixels with the largest
-error. The reference's own error is subtracted where ratios are formed. The method: docs/evaluation.md.</footer>
+<footer>relMSE: mean of (I − R)² / (R² + ε), ε = (1 %% of the reference's mean)². Trimmed: without the 0.1 %% of pixels
+with the largest error. The reference's own error is subtracted where ratios are formed. The method:
+docs/evaluation.md.</footer>
 <script>%s</script></body></html>
 """ % (title, _file("page.css"), "\n".join(css for _, css in sections), title, html.escape(results["description"]),
        _definitions(how), _definitions(results["build"]), tables.overview(scenes, titles, colour_of, base),

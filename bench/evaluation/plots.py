@@ -5,7 +5,7 @@ import html
 import math
 
 WIDTH, HEIGHT = 460, 330
-LEFT, RIGHT, TOP, BOTTOM = 58, 14, 34, 44
+LEFT, RIGHT, TOP, BOTTOM = 58, 14, 46, 44
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -16,6 +16,11 @@ def number(x, digits=3):
     exponent = math.floor(math.log10(abs(float("%.*e" % (digits - 1, x)))))
     if -4 < exponent < 6: return "{:,.{}f}".format(x, max(0, digits - 1 - exponent)).replace(",", "\u202f")
     return "%.*f × 10%s" % (digits - 1, x / 10 ** exponent, str(exponent).translate(SUPERSCRIPTS))
+
+
+def count(x):
+    """A number of things: all its digits, unless it is a median between two."""
+    return number(x) if x is None or x != round(x) else "{:,d}".format(round(x)).replace(",", "\u202f")
 
 
 def text(x, y, content, anchor="middle", extra=""):
@@ -84,15 +89,20 @@ def svg(width, height, parts, label):
         width, height, html.escape(label, quote=True), "".join(parts))
 
 
+def text_width(content):
+    """About, in the page's sans serif of 12 pixels."""
+    return sum(3.7 if c in "fijlrt,.·' " else 7.3 for c in content)
+
+
 def legend(series, right, y):
     """In one row that ends at `right`."""
     out = []
     for s in reversed(series):
-        right -= 6.4 * len(s["title"])
+        right -= text_width(s["title"])
         out.append(text(right, y + 4, s["title"], "start"))
         right -= 12
         out.append('<g class="k%d">%s</g>' % (s["colour"], marker(s["colour"], right, y)))
-        right -= 14
+        right -= 18
     return out
 
 
@@ -126,6 +136,28 @@ def convergence(series, x_title, y_title, floor):
     return svg(WIDTH, HEIGHT, out, "%s over %s" % (y_title, x_title))
 
 
+def worth(series):
+    """series: [{"title", "colour", "time", "error"}], both of one sample as multiples of the base's. What lies on a
+    dotted line is equally efficient."""
+    if not series: return ""
+    x = LogAxis([s["time"] for s in series] + [1.], LEFT, WIDTH - RIGHT, 1.3)
+    y = LogAxis([s["error"] for s in series] + [1.], HEIGHT - BOTTOM, TOP, 1.3)
+    out = frame(x, y, "time of a sample, as a multiple", "error of a sample, as a multiple")
+    for e in range(-4, 15):
+        product = 2. ** -e  # error x time
+        low, high = max(x.low, product / y.high), min(x.high, product / y.low)
+        if low >= high: continue
+        a, b = x.at(high), y.at(product / high)
+        out.append(line(x.at(low), y.at(product / low), a, b, "unity" if e == 0 else "guide"))
+        near_end = a > x.end - 26
+        out.append(text(a - 4 if near_end else a, b - (7 if near_end else 4), "%g×" % 2 ** e,
+                        "end" if near_end else "start", 'class="note"'))
+    for s in series:
+        out.append('<g class="k%d">%s</g>' % (s["colour"], marker(s["colour"], x.at(s["time"]), y.at(s["error"]), 5.4)))
+    out += legend(series, WIDTH - RIGHT, 10)
+    return svg(WIDTH, HEIGHT, out, "error over time of one sample")
+
+
 def slope_guide(x, y):
     """A short line of slope -1 in the lower left corner, where curves that fall leave room."""
     a0 = x.low * (x.high / x.low) ** .06
@@ -141,14 +173,16 @@ def intervals(rows, x_title, label_width=150, width=WIDTH):
     marks = [m for r in rows for m in r["marks"]]
     values = [v for m in marks for v in (m["value"], *(m["ci"] or ())) if v > 0]
     if not values: return ""
-    step, gap = 17, 9
-    height = TOP + sum(step * len(r["marks"]) + gap for r in rows) + BOTTOM - 8
+    # Rows of several marks are close; single ones get room.
+    step, gap = (17, 9) if len(marks) > len(rows) else (22, 12)
+    top = 16
+    height = top + sum(step * len(r["marks"]) + gap for r in rows) + BOTTOM
     x = LogAxis(values + [1.], label_width, width - 62)
-    bottom, out, y = height - BOTTOM, [], TOP - 12
+    bottom, out, y = height - BOTTOM, [], top
     for v, name in x.ticks():
-        if name: out += [line(x.at(v), TOP - 18, x.at(v), bottom, "grid"), text(x.at(v), bottom + 16, name)]
+        if name: out += [line(x.at(v), top - 8, x.at(v), bottom, "grid"), text(x.at(v), bottom + 16, name)]
         out.append(line(x.at(v), bottom, x.at(v), bottom + (5 if name else 3), "axis"))
-    out += [line(x.start, bottom, x.end, bottom, "axis"), line(x.at(1), TOP - 18, x.at(1), bottom, "unity"),
+    out += [line(x.start, bottom, x.end, bottom, "axis"), line(x.at(1), top - 8, x.at(1), bottom, "unity"),
             text((x.start + x.end) / 2, bottom + 36, x_title, extra='class="title"')]
     for r in rows:
         out.append(text(x.start - 12, y + step * len(r["marks"]) / 2 + 3, r["title"], "end"))

@@ -110,7 +110,8 @@ def _check(suite, where):
             if n not in names: raise SuiteError("scene %s: no variant '%s'" % (s.name, n))
         if suite.scene_base(s) not in here: raise SuiteError("scene %s: its base is not among its variants" % s.name)
         r = suite.scene_reference(s)
-        if bool(r.seconds) == bool(r.spp): raise SuiteError("scene %s: a reference has either 'seconds' or 'spp'" % s.name)
+        if bool(r.seconds) == bool(r.spp):
+            raise SuiteError("scene %s: a reference has either 'seconds' or 'spp'" % s.name)
 
 
 def read(path):

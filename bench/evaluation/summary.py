@@ -20,7 +20,8 @@ def _cut_statistics(runs):
     for r in runs:
         for section, entries in r["stats"].get("statistics", {}).items():
             for name, value in entries.items():
-                if isinstance(value, (int, float)) and "cut" in (section + " " + name).lower().replace("-", " ").split():
+                words = ("%s %s" % (section, name)).lower().replace("-", " ").split()
+                if isinstance(value, (int, float)) and "cut" in words:
                     found.setdefault(name, []).append(value)
     return {name: _median(values) for name, values in found.items()}
 
@@ -83,7 +84,7 @@ def _variant(variant, found, halves, floor, load, threads):
     if not runs: return result
     for key in ("seconds", "spp", "samples_per_second", "memory", "load_seconds", "cpu_share"):
         result[key] = _median([r[key] for r in runs if r[key] is not None])
-    result["errors"] = {m: measures.bootstrap([r[m] for r in runs], np.mean) for m in METRICS}
+    result["errors"] = {m: measures.mean([r[m] for r in runs]) for m in METRICS}
     result["bias"] = measures.bias(pictures, halves)
     result["efficiency"] = _efficiencies(runs, floor)
     result["light_cut"] = _cut_statistics(found["runs"])

@@ -4,7 +4,7 @@ import html
 import math
 
 from .measures import METRICS
-from .plots import marker, number
+from .plots import count, marker, number
 
 METRIC_TITLES = {"trimmed": "trimmed relMSE", "relmse": "relMSE", "mse": "MSE"}
 SUSPICIOUS_Z = 4
@@ -16,14 +16,18 @@ def swatch(colour):
 
 
 def cell(content, small="", kind=""):
-    return "<td%s>%s%s</td>" % (' class="%s"' % kind if kind else "", content, "<small>%s</small>" % small if small else "")
+    return "<td%s>%s%s</td>" % (
+        ' class="%s"' % kind if kind else "", content, "<small>%s</small>" % small if small else "")
+
+
+def interval(ends):
+    return "%s – %s" % tuple(number(v, 2) for v in ends) if ends else ""
 
 
 def times(estimate):
     """A ratio with its interval."""
     if not estimate: return "–", ""
-    interval = "%s – %s" % tuple(number(v, 2) for v in estimate["ci"]) if estimate["ci"] else ""
-    return number(estimate["value"]) + "×", interval
+    return number(estimate["value"]) + "×", interval(estimate["ci"])
 
 
 def size(number_of_bytes):
@@ -35,7 +39,9 @@ def size(number_of_bytes):
 def bias_cell(bias):
     if bias["z"] is None: return cell("%.4f" % bias["ratio"])
     kind = "doubt" if abs(bias["z"]) > SUSPICIOUS_Z else ""
-    return cell("%.4f" % bias["ratio"], "z = %s%.1f" % ("−" if bias["z"] < 0 else "+", abs(bias["z"])), kind)
+    z = round(bias["z"], 1)
+    sign = "−" if z < 0 else "+" if z > 0 else ""
+    return cell("%.4f" % bias["ratio"], "z = %s%.1f" % (sign, abs(z)), kind)
 
 
 def best_of(variants, value):
@@ -53,17 +59,21 @@ def variant_rows(scene, colour_of, cut_names):
             yield head + '<td class="why" colspan="%d">failed: %s</td></tr>' % (
                 columns - 1, html.escape(v["failed"].strip().split("\n")[-1][:300]))
             continue
-        cells = [cell(number(v["seconds"]) + " s"), cell(number(v["spp"])), cell(number(v["samples_per_second"]))]
+        cells = [cell(number(v["seconds"]) + " s"), cell(count(v["spp"])), cell(number(v["samples_per_second"]))]
         for m in METRICS:
             e = v["errors"][m]
-            cells.append(cell(number(e["value"]), "%s – %s" % tuple(number(x, 2) for x in e["ci"]) if e["ci"] else ""))
+            cells.append(cell(number(e["value"]), interval(e["ci"])))
         cells.append(bias_cell(v["bias"]))
-        cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if v["name"] == best else ""))
-        equal = v["equal_samples"]
-        cells.append(cell(*times(equal["trimmed"] if equal else None)))
+        cells += ratio_cells(scene, v, best)
         cells += [cell(number(v["light_cut"].get(n))) for n in cut_names]
         cells.append(cell(size(v["memory"]), number(v["load_seconds"], 2) + " s"))
         yield head + "".join(cells) + "</tr>"
+
+
+def ratio_cells(scene, v, best):
+    kind, equal = "best" if v["name"] == best else "", v["equal_samples"]
+    if v["name"] == scene["base"]: return [cell("1", kind=kind), cell("1" if equal else "–")]
+    return [cell(*times(v["against_base"]["trimmed"]), kind), cell(*times(equal["trimmed"] if equal else None))]
 
 
 def scene_table(scene, colour_of):
@@ -72,13 +82,19 @@ def scene_table(scene, colour_of):
     heads = ["time", "spp", "samples/s", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
              "at %d spp" % equal if equal else "at equal spp", *map(html.escape, cut_names), "memory, load"]
     floor = scene["reference"]["floor"]
-    caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the reference's, "
-               "z its distance from 1 in standard deviations. <b>At equal time</b> and <b>at equal spp</b> are by how much "
-               "the error, %s, falls below that of <i>%s</i>; time counts as cost. The reference's own error: %s." % (
-                   METRIC_TITLES["trimmed"], html.escape(scene["base"]),
+    caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the "
+               "reference's, z its distance from 1 in standard deviations. <b>At equal time</b>: how many times less time "
+               "it needs than <i>%s</i> for the same %s; <b>at equal spp</b>: how many times smaller that error is. The "
+               "reference's own error: %s." % (
+                   html.escape(scene["base"]), METRIC_TITLES["trimmed"],
                    ", ".join("%s %s" % (METRIC_TITLES[m], number(floor[m], 2)) for m in METRICS)))
-    return '<div class="scroll"><table><caption>%s</caption><thead><tr><th>light sampler</th>%s</tr></thead><tbody>%s</tbody></table></div>' % (
-        caption, "".join("<th>%s</th>" % h for h in heads), "".join(variant_rows(scene, colour_of, cut_names)))
+    return table(caption, "<th>light sampler</th>" + "".join("<th>%s</th>" % h for h in heads),
+                 "".join(variant_rows(scene, colour_of, cut_names)))
+
+
+def table(caption, head, body, foot=""):
+    return ('<div class="scroll"><table><caption>%s</caption><thead><tr>%s</tr></thead><tbody>%s</tbody>%s</table>'
+            "</div>" % (caption, head, body, foot))
 
 
 def geometric_means(scenes, titles, base):
@@ -106,12 +122,11 @@ def overview(scenes, titles, colour_of, base):
             elif n == s["base"]: cells.append(cell("1", kind="best" if n == best else ""))
             else: cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if n == best else ""))
         rows.append('<tr><th scope="row"><a href="#scene-%d">%s</a></th><td>%s</td>%s</tr>' % (
-            k + 1, html.escape(s["title"]), number(s["lights"], 7), "".join(cells)))
-    means, count = geometric_means(scenes, titles, base)
+            k + 1, html.escape(s["title"]), count(s["lights"]), "".join(cells)))
+    means, counted = geometric_means(scenes, titles, base)
     foot = '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
-        count, "".join(cell("%s×" % number(means[n])) for n in titles)) if count > 1 else ""
+        counted, "".join(cell("1" if n == base else "%s×" % number(means[n])) for n in titles)) if counted > 1 else ""
     heads = "".join("<th>%s%s</th>" % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
-    return ('<div class="scroll"><table><caption>How many times less time each needs for the same error (trimmed relMSE) as the '
-            "scene's base, the one with 1: the median over pairs of runs, below it the 95 %% interval. Bold: the best."
-            "</caption><thead><tr><th>scene</th><th>lights</th>%s</tr></thead><tbody>%s</tbody>%s</table></div>" % (
-                heads, "".join(rows), foot))
+    caption = ("How many times less time each needs for the same error (trimmed relMSE) as the scene's base, the one with "
+               "1: the median over pairs of runs, below it the 95 % interval. Bold: the best.")
+    return table(caption, "<th>scene</th><th>lights</th>" + heads, "".join(rows), foot)

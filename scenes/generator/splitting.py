@@ -26,7 +26,8 @@ def cove(lights, rng):
     columns = max(1, round(lights / (2 * strips)))
     out = [HEAD % ("-3 -6.5 1.6  0.3 0 1.9  0 0 1", 44, "cove"),
            'Material "matte" "rgb Kd" [.7 .7 .7]\n', quad((-6, 0, 0), (-6, 0, 5), (6, 0, 5), (6, 0, 0)),
-           'Material "substrate" "rgb Kd" [.25 .25 .25] "rgb Ks" [.3 .3 .3] "float uroughness" .05 "float vroughness" .05\n',
+           'Material "substrate" "rgb Kd" [.25 .25 .25] "rgb Ks" [.3 .3 .3]\n'
+           '  "float uroughness" .05 "float vroughness" .05\n',
            quad((-6, -9, 0), (6, -9, 0), (6, 0, 0), (-6, 0, 0))]
     for i in range(strips):
         z = .2 + 4.5 * i / (strips - 1)
@@ -44,7 +45,8 @@ def shelves(lights, rng):
     columns, rows = 12, 8
     side = max(1, round((lights / (2 * columns * rows)) ** .5))
     out = [HEAD % ("0 -9 2.6  0 0 2  0 0 1", 38, "shelves"), 'Material "matte" "rgb Kd" [.65 .62 .58]\n',
-           quad((-6, 0, 0), (-6, 0, 4), (6, 0, 4), (6, 0, 0)), quad((-9, -9, -.02), (9, -9, -.02), (9, 0, -.02), (-9, 0, -.02))]
+           quad((-6, 0, 0), (-6, 0, 4), (6, 0, 4), (6, 0, 0)),
+           quad((-9, -9, -.02), (9, -9, -.02), (9, 0, -.02), (-9, 0, -.02))]
     out += [cuboid((-6 + i - .02, -.8, 0), (-6 + i + .02, 0, 4)) for i in range(columns + 1)]
     out += [cuboid((-6, -.8, .5 * j - .02), (6, 0, .5 * j + .02)) for j in range(rows + 1)]
     for j in range(rows):

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of bench/: measures on made-up data whose answers are known, and whole suites with a program that is made up
+as well. All random numbers are seeded."""
+import json
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from html.parser import HTMLParser
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+BENCH = os.path.join(HERE, "..", "..", "bench")
+sys.path.insert(0, BENCH)
+try:
+    import numpy as np
+except ImportError:
+    print("SKIPPED: numpy is missing (Debian: python3-numpy)")
+    sys.exit(0)
+from evaluation import colours, images, measures, plots, suite as suites  # noqa: E402
+
+
+def noisy(rng, sigma, shape=(40, 50, 3)): return 1 + rng.normal(0, sigma, shape)
+
+
+class Measures(unittest.TestCase):
+    def test_errors_of_known_differences(self):
+        reference = np.full((20, 50, 3), 2.)
+        image = reference + .2
+        e = measures.errors(image, reference)
+        self.assertAlmostEqual(e["mse"], .04)
+        self.assertAlmostEqual(e["relmse"], .04 / (4 + .0004))
+        self.assertAlmostEqual(e["trimmed"], e["relmse"])
+
+    def test_trimming_leaves_fireflies_out(self):
+        reference = np.ones((20, 50, 3))
+        image = reference + .1
+        image[3, 4] = 1000
+        e = measures.errors(image, reference)
+        self.assertAlmostEqual(e["trimmed"], .01 / 1.0001)
+        self.assertGreater(e["relmse"], 900)
+
+    def test_errors_do_not_depend_on_brightness(self):
+        rng = np.random.default_rng(1)
+        a, b = noisy(rng, .1), noisy(rng, .1)
+        for m in ("relmse", "trimmed"):
+            self.assertAlmostEqual(measures.errors(a, b)[m], measures.errors(1e6 * a, 1e6 * b)[m])
+
+    def test_floor_is_the_error_of_the_reference(self):
+        rng = np.random.default_rng(2)
+        floor = measures.floor_of([noisy(rng, .1), noisy(rng, .1)])
+        self.assertAlmostEqual(floor["mse"], .1 ** 2 / 2, delta=.0005)
+
+    def test_errors_under_the_floor_are_not_told(self):
+        self.assertIsNone(measures.over_floor(.019, .01))
+        self.assertAlmostEqual(measures.over_floor(.05, .01), .04)
+
+    def test_bias_is_found_and_noise_is_not(self):
+        rng = np.random.default_rng(3)
+        halves = [noisy(rng, .05), noisy(rng, .05)]
+        fair = measures.bias([noisy(rng, .3) for _ in range(4)], halves)
+        biased = measures.bias([1.03 * noisy(rng, .3) for _ in range(4)], halves)
+        self.assertLess(abs(fair["z"]), 4)
+        self.assertGreater(biased["z"], 6)
+        self.assertAlmostEqual(biased["ratio"], 1.03, delta=.01)
+
+    def test_z_is_standard_normal(self):
+        rng = np.random.default_rng(4)
+        z = [measures.bias([noisy(rng, .3, (8, 8, 3)) for _ in range(3)],
+                           [noisy(rng, .2, (8, 8, 3)) for _ in range(2)])["z"] for _ in range(400)]
+        self.assertAlmostEqual(np.std(z), 1, delta=.15)
+        self.assertAlmostEqual(np.mean(z), 0, delta=.2)
+
+    def test_interval_covers_the_truth_as_often_as_it_says(self):
+        rng = np.random.default_rng(5)
+        hits = 0
+        for _ in range(100):
+            low, high = measures.mean(rng.normal(5, 1, 30))["ci"]
+            hits += low < 5 < high
+        self.assertGreaterEqual(hits, 85)
+
+    def test_one_sample_has_no_interval(self):
+        self.assertIsNone(measures.mean([3.])["ci"])
+
+    def test_pairs_cancel_what_befalls_both(self):
+        rng = np.random.default_rng(6)
+        load = rng.uniform(1, 10, 20)  # how busy the machine is from pair to pair
+        ratio = measures.ratio_of_pairs(3 * load * rng.normal(1, .02, 20), load * rng.normal(1, .02, 20))
+        self.assertAlmostEqual(ratio["value"], 3, delta=.1)
+        self.assertLess(ratio["ci"][1] - ratio["ci"][0], .2)
+
+
+class Pictures(unittest.TestCase):
+    def test_png_holds_the_pixels(self):
+        pixels = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
+        data = images.png(pixels)
+        start = data.index(b"IDAT")
+        size = int.from_bytes(data[start - 4:start], "big")
+        rows = np.frombuffer(zlib.decompress(data[start + 4:start + 4 + size]), np.uint8).reshape(5, 22)
+        decoded = rows[:, 1:].reshape(5, 7, 3).cumsum(axis=1, dtype=np.uint8)
+        self.assertTrue((decoded == pixels).all())
+
+    def test_pfm_is_read_top_row_first(self):
+        with tempfile.NamedTemporaryFile(suffix=".pfm") as f:
+            f.write(b"PF\n1 2\n-1.0\n" + np.array([1, 2, 3, 4, 5, 6], "<f4").tobytes())
+            f.flush()
+            self.assertEqual(images.load(f.name).tolist(), [[[4, 5, 6]], [[1, 2, 3]]])
+
+    def test_false_colours_get_lighter(self):
+        grey = colours.palette() @ (.2126, .7152, .0722)
+        self.assertTrue((np.diff(grey) > 0).all())
+        self.assertEqual(colours.indices(np.array([0, 1e9, np.nan]), .01, 10).tolist(), [0, 63, 63])
+
+
+class Numbers(unittest.TestCase):
+    def test_are_written_as_in_a_text(self):
+        for value, written in ((0, "0"), (.0146, "0.0146"), (3.14159, "3.14"), (9.999, "10.0"),
+                               (12e-7, "1.20 × 10⁻⁶"),
+                               (None, "–"), (float("nan"), "–"), (123456, "123\u202f456")):
+            self.assertEqual(plots.number(value), written)
+
+
+class SuiteFiles(unittest.TestCase):
+    def test_those_of_the_project_are_right(self):
+        folder = os.path.join(BENCH, "suites")
+        for name in os.listdir(folder): suites.read(os.path.join(folder, name))
+
+    def test_faults_are_told(self):
+        good = {"name": "s", "base": "a", "variants": [{"name": "a"}], "scenes": [{"name": "x", "file": "x.pbrt"}],
+                "reference": {"spp": 4}}
+        suites.parse(good)
+        for change, told in (({"bse": 1}, "unknown: bse"), ({"base": "b"}, "no variant 'b'"),
+                             ({"reference": {}}, "either"),
+                             ({"scenes": [{"name": "../x", "file": "x"}]}, "no name"),
+                             ({"variants": [{"name": "a"}, {"name": "a"}]}, "two variants")):
+            with self.assertRaisesRegex(suites.SuiteError, told):
+                suites.parse({**json.loads(json.dumps(good)), **change})
+
+
+class Links(HTMLParser):
+    """Everything in a page that could refer to something else; and whether elements close."""
+    VOID = {"meta", "input", "link", "img", "br"}
+
+    def __init__(self):
+        super().__init__()
+        self.links, self.open, self.ids = [], [], set()
+
+    def handle_starttag(self, tag, attributes):
+        a = dict(attributes)
+        self.links += [a[n] for n in ("href", "src", "srcset", "data") if n in a]
+        if "id" in a: self.ids.add(a["id"])
+        if tag not in self.VOID: self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes): pass
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag: raise ValueError("</%s> closes nothing" % tag)
+
+
+class WholeSuites(unittest.TestCase):
+    SUITE = {
+        "name": "made-up", "title": "Made <up>", "seconds": 2, "repetitions": 4, "threads": 1, "base": "plain",
+        "reference": {"define": ["fake.variance=1"], "spp": 20000}, "curve": {"spp": [1, 16], "repetitions": 2},
+        "variants": [{"name": "plain", "define": ["fake.variance=1"]},
+                     {"name": "better", "define": ["fake.variance=0.1", "fake.cost=2"]},
+                     {"name": "biased", "define": ["fake.variance=0.5", "fake.bias=0.05"]},
+                     {"name": "broken", "define": ["fake.variance=1", "fake.fail=1"]}],
+        "scenes": [{"name": "grey", "file": "grey.pbrt"},
+                   {"name": "other", "file": "grey.pbrt", "variants": ["plain", "better"]}]}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        with open(os.path.join(HERE, "fake_lampyris.py")) as f: text = f.read()
+        binary = os.path.join(cls.folder, "fake")
+        with open(binary, "w") as f: f.write(text.replace("/usr/bin/env python3", sys.executable, 1))
+        os.chmod(binary, stat.S_IRWXU)
+        with open(os.path.join(cls.folder, "grey.pbrt"), "w") as f: f.write("0.02")
+        with open(os.path.join(cls.folder, "suite.json"), "w") as f: json.dump(cls.SUITE, f)
+        cls.results = cls.run_suite(cls.folder)
+
+    @staticmethod
+    def run_suite(folder):
+        subprocess.run([sys.executable, os.path.join(BENCH, "equal_time.py"), os.path.join(folder, "suite.json"),
+                        "--out", os.path.join(folder, "out"), "--binary", os.path.join(folder, "fake")],
+                       check=True, capture_output=True, text=True)
+        with open(os.path.join(folder, "out", "results.json")) as f: return json.load(f)
+
+    @staticmethod
+    def calls(folder):
+        with open(os.path.join(folder, "fake.calls")) as f: return f.readlines()
+
+    def test_known_efficiency_comes_back(self):
+        v = {v["name"]: v for v in self.results["scenes"][0]["variants"]}
+        # A tenth of the variance at twice the cost: 5 times as efficient, 10 times at equal samples.
+        for m in measures.METRICS:
+            self.assertAlmostEqual(v["better"]["against_base"][m]["value"], 5, delta=.6)
+            self.assertAlmostEqual(v["better"]["equal_samples"][m]["value"], 10, delta=1.2)
+        low, high = v["better"]["against_base"]["mse"]["ci"]
+        self.assertTrue(low <= v["better"]["against_base"]["mse"]["value"] <= high)
+        self.assertAlmostEqual(v["plain"]["errors"]["mse"]["value"], 1 / 100, delta=.001)
+        self.assertAlmostEqual(v["better"]["errors"]["mse"]["value"], .1 / 50, delta=.0002)
+        self.assertEqual([p["spp"] for p in v["plain"]["curve"]], [1, 16])
+        self.assertEqual(v["plain"]["light_cut"], {"mean lights": 4.5})
+        self.assertLess(abs(v["plain"]["bias"]["z"]), 5)
+        self.assertGreater(v["biased"]["bias"]["z"], 10)
+        self.assertIn("always fails", v["broken"]["failed"])
+        self.assertEqual(v["broken"]["runs"], [])
+
+    def test_goes_on_where_it_was(self):
+        folder = os.path.join(self.folder, "copy")
+        shutil.copytree(self.folder, folder)
+        done = len(self.calls(folder))
+        self.assertEqual(self.run_suite(folder), self.results)
+        self.assertEqual(len(self.calls(folder)), done + 1)  # what failed is tried again
+        os.remove(os.path.join(folder, "out/runs/grey/better/01.json"))
+        self.run_suite(folder)
+        self.assertEqual(len(self.calls(folder)), done + 3)
+        # Another program: all is run again but the references.
+        with open(os.path.join(folder, "fake"), "a") as f: f.write("# changed\n")
+        references = 4
+        self.run_suite(folder)
+        self.assertEqual(len(self.calls(folder)), 2 * done + 3 - references)
+
+    def test_runs_take_turns(self):
+        turns = [line.split(" -D ")[1].strip() for line in self.calls(self.folder)
+                 if "out/runs/grey" in line and "--seconds 2 " in line and "fail" not in line]
+        # Each repetition begins with the variant after the one that the last began with.
+        plain, better, biased = "fake.variance=1", "fake.variance=0.1", "fake.variance=0.5"
+        self.assertEqual(turns[:6], [plain, better, biased, better, biased, plain])
+
+    def test_page_stands_alone(self):
+        out = os.path.join(self.folder, "page.html")
+        subprocess.run([sys.executable, os.path.join(BENCH, "report.py"),
+                        os.path.join(self.folder, "out", "results.json"), "-o", out], check=True)
+        with open(out, encoding="utf-8") as f: text = f.read()
+        page = Links()
+        page.feed(text)
+        self.assertEqual(page.open, [])
+        self.assertTrue(all(link.startswith("#") and link[1:] in page.ids for link in page.links), page.links)
+        self.assertEqual(text.count("url("), text.count("url(data:image/png;base64,"))
+        for outside in ("http:", "https:", "@import"): self.assertNotIn(outside, text)
+        self.assertIn("Made &lt;up&gt;", text)
+        self.assertIn("always fails", text)
+        self.assertIn("A mean differs from the reference", text)
+        self.assertEqual(text.count("<polyline"), 2 * (3 + 2))
+        self.assertNotIn("nan", [n for n in text.lower().split('"') if len(n) < 9])
+
+
+if __name__ == "__main__":
+    unittest.main()
