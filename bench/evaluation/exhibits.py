@@ -10,7 +10,7 @@ from . import colours, images, measures
 from .plots import number
 
 DETAIL = 6  # a detail is the sixth part of the image's shorter edge
-LABELS = "AB"
+LABELS = "ABC"
 
 
 def css_image(name, data):
@@ -24,7 +24,7 @@ def nice(value, up):
 
 
 def details(error_map):
-    """Where to look: the two squares (x, y, size) with most error that don't overlap."""
+    """Where to look: the squares (x, y, size) with most error that don't overlap."""
     h, w = error_map.shape
     size = max(8, min(h, w) // DETAIL)
     sums = np.pad(np.minimum(error_map, 4 * error_map.mean()).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
@@ -53,8 +53,9 @@ class Exhibits:
             self.maps.append(np.sqrt(squares))
         self.height, self.width = self.reference.shape[:2]
         self.details = details(self.maps[0]) if self.maps else []
-        everything = np.concatenate([m.ravel() for m in self.maps]) if self.maps else np.array([.1])
-        low, high = np.percentile(everything, (2, 99.5))
+        # Without pixels that are exact, as where there is nothing to see.
+        errors = np.concatenate([np.array([.1]), *(m[m > 0] for m in self.maps)])
+        low, high = np.percentile(errors, (2, 99.5))
         self.low, self.high = nice(max(low, 1e-4), False), nice(min(max(high, 1e-3), 1e6), True)
 
     def names(self):
@@ -112,6 +113,6 @@ class Exhibits:
         span = np.log(self.high / self.low)
         at = {v: np.log(v / self.low) / span for v in [self.low, self.high, *(10. ** e for e in range(-5, 8))]}
         marks = "".join('<span style="left:%.1f%%">%s %%</span>' % (100 * t, number(100 * v, 1))
-                        for v, t in at.items() if t in (0, 1) or .12 < t < .88)
+                        for v, t in at.items() if t in (0, 1) or .2 < t < .8)
         return ('<div class="scale"><span>relative error</span><div class="ramp picture" '
                 'style="background-image:linear-gradient(90deg,%s)">%s</div></div>' % (stops, marks))

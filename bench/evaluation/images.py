@@ -40,9 +40,9 @@ def tone_mapped(image, exposure):
 
 
 def exposure_for(reference):
-    """Middling: the 90th percentile of the luminance becomes 0.6, so that lamps clip and walls don't."""
+    """Middling: the 90th percentile of the luminance becomes 0.5, so that lamps clip and walls don't."""
     bright = np.percentile(reference @ (.2126, .7152, .0722), 90)
-    return .6 / bright if bright > 0 else 1.
+    return .5 / bright if bright > 0 else 1.
 
 
 def png(pixels, palette=None):

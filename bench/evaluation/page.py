@@ -93,7 +93,7 @@ def _facts(scene):
     if scene["tree_bytes"]:
         facts.append("light tree of %s, built in %s s" % (
             tables.size(scene["tree_bytes"]), number(scene["tree_seconds"], 2)))
-    facts.append("%s s a run" % number(scene["seconds"]))
+    facts.append("%g s a run" % scene["seconds"])
     reference = scene["reference"]
     facts.append("reference: two halves of %s spp, %s" % (
         " and ".join(count(s) for s in reference["spp"]), " ".join(reference["define"]) or "as the scene says"))
@@ -136,7 +136,7 @@ def page(results, load):
     ordered = [base] + [n for n in titles if n != base]
     titles, colour_of = {n: titles[n] for n in ordered}, {n: k % COLOURS for k, n in enumerate(ordered)}
     sections = [_scene(k + 1, s, colour_of, load) for k, s in enumerate(scenes)]
-    how = {"date": results["date"], "a run": "%s s on %d threads" % (number(results["seconds"]), results["threads"]),
+    how = {"date": results["date"], "a run": "%g s on %d threads" % (results["seconds"], results["threads"]),
            "repetitions": results["repetitions"], **{k: v for k, v in results["machine"].items()}}
     title = html.escape(results["title"])
     return """<!doctype html>

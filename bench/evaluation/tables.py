@@ -57,7 +57,7 @@ def variant_rows(scene, colour_of, cut_names):
         head = '<tr><th scope="row">%s%s</th>' % (swatch(colour_of[v["name"]]), html.escape(v["title"]))
         if not v["runs"]:
             yield head + '<td class="why" colspan="%d">failed: %s</td></tr>' % (
-                columns - 1, html.escape(v["failed"].strip().split("\n")[-1][:300]))
+                columns, html.escape(v["failed"].strip().split("\n")[-1][:300]))
             continue
         cells = [cell(number(v["seconds"]) + " s"), cell(count(v["spp"])), cell(number(v["samples_per_second"]))]
         for m in METRICS:
@@ -93,20 +93,16 @@ def scene_table(scene, colour_of):
 
 
 def table(caption, head, body, foot=""):
-    return ('<div class="scroll"><table><caption>%s</caption><thead><tr>%s</tr></thead><tbody>%s</tbody>%s</table>'
-            "</div>" % (caption, head, body, foot))
+    # The caption is no <caption>, because a wide table scrolls and its caption must not.
+    return ('<figure class="tabular"><div class="scroll"><table><thead><tr>%s</tr></thead><tbody>%s</tbody>%s</table></div>'
+            "<figcaption>%s</figcaption></figure>" % (head, body, foot, caption))
 
 
 def geometric_means(scenes, titles, base):
-    """Over the scenes that have this base, and where every variant listed in `titles` was measured."""
-    logs = {n: [] for n in titles}
-    for s in scenes:
-        ratios = {v["name"]: v["against_base"]["trimmed"] for v in s["variants"] if v["runs"]}
-        if s["base"] == base and all(ratios.get(n) for n in titles):
-            for n in titles: logs[n].append(math.log(ratios[n]["value"]))
-    counts = {len(v) for v in logs.values()}
-    if counts == {0}: return {}, 0
-    return {n: math.exp(sum(v) / len(v)) for n, v in logs.items()}, counts.pop()
+    """Of the variants that were measured in every scene that has this base; and how many scenes these are."""
+    ratios = [{v["name"]: v["against_base"]["trimmed"] for v in s["variants"]} for s in scenes if s["base"] == base]
+    complete = [n for n in titles if all(r.get(n) for r in ratios)]
+    return {n: math.exp(sum(math.log(r[n]["value"]) for r in ratios) / len(ratios)) for n in complete}, len(ratios)
 
 
 def overview(scenes, titles, colour_of, base):
@@ -118,15 +114,15 @@ def overview(scenes, titles, colour_of, base):
         for n in titles:
             v = by_name.get(n)
             if not v: cells.append(cell(""))
-            elif not v["runs"]: cells.append(cell("failed", kind="why"))
+            elif not v["runs"]: cells.append(cell("failed", kind="none"))
             elif n == s["base"]: cells.append(cell("1", kind="best" if n == best else ""))
             else: cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if n == best else ""))
         rows.append('<tr><th scope="row"><a href="#scene-%d">%s</a></th><td>%s</td>%s</tr>' % (
             k + 1, html.escape(s["title"]), count(s["lights"]), "".join(cells)))
     means, counted = geometric_means(scenes, titles, base)
     foot = '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
-        counted, "".join(cell("1" if n == base else "%s×" % number(means[n])) for n in titles)) if counted > 1 else ""
-    heads = "".join("<th>%s%s</th>" % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
+        counted, "".join(cell("1" if n == base else "%s×" % number(means[n]) if n in means else "–") for n in titles)) if counted > 1 else ""
+    heads = "".join('<th class="name">%s%s</th>' % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
     caption = ("How many times less time each needs for the same error (trimmed relMSE) as the scene's base, the one with "
                "1: the median over pairs of runs, below it the 95 % interval. Bold: the best.")
     return table(caption, "<th>scene</th><th>lights</th>" + heads, "".join(rows), foot)
