@@ -94,8 +94,8 @@ def scene_table(scene, colour_of):
 
 def table(caption, head, body, foot=""):
     # The caption is no <caption>, because a wide table scrolls and its caption must not.
-    return ('<figure class="tabular"><div class="scroll"><table><thead><tr>%s</tr></thead><tbody>%s</tbody>%s</table></div>'
-            "<figcaption>%s</figcaption></figure>" % (head, body, foot, caption))
+    return ('<figure class="tabular"><div class="scroll"><table><thead><tr>%s</tr></thead><tbody>%s</tbody>%s</table>'
+            "</div><figcaption>%s</figcaption></figure>" % (head, body, foot, caption))
 
 
 def geometric_means(scenes, titles, base):
@@ -103,6 +103,14 @@ def geometric_means(scenes, titles, base):
     ratios = [{v["name"]: v["against_base"]["trimmed"] for v in s["variants"]} for s in scenes if s["base"] == base]
     complete = [n for n in titles if all(r.get(n) for r in ratios)]
     return {n: math.exp(sum(math.log(r[n]["value"]) for r in ratios) / len(ratios)) for n in complete}, len(ratios)
+
+
+def mean_row(scenes, titles, base):
+    means, counted = geometric_means(scenes, titles, base)
+    if counted < 2: return ""
+    shown = ["1" if n == base else number(means[n]) + "×" if n in means else "–" for n in titles]
+    return '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
+        counted, "".join(map(cell, shown)))
 
 
 def overview(scenes, titles, colour_of, base):
@@ -119,10 +127,8 @@ def overview(scenes, titles, colour_of, base):
             else: cells.append(cell(*times(v["against_base"]["trimmed"]), "best" if n == best else ""))
         rows.append('<tr><th scope="row"><a href="#scene-%d">%s</a></th><td>%s</td>%s</tr>' % (
             k + 1, html.escape(s["title"]), count(s["lights"]), "".join(cells)))
-    means, counted = geometric_means(scenes, titles, base)
-    foot = '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
-        counted, "".join(cell("1" if n == base else "%s×" % number(means[n]) if n in means else "–") for n in titles)) if counted > 1 else ""
     heads = "".join('<th class="name">%s%s</th>' % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
     caption = ("How many times less time each needs for the same error (trimmed relMSE) as the scene's base, the one with "
                "1: the median over pairs of runs, below it the 95 % interval. Bold: the best.")
-    return table(caption, "<th>scene</th><th>lights</th>" + heads, "".join(rows), foot)
+    return table(caption, "<th>scene</th><th>lights</th>" + heads, "".join(rows),
+                 mean_row(scenes, titles, base))
