@@ -9,6 +9,7 @@ import argparse
 import datetime
 import json
 import os
+import subprocess
 import sys
 
 from evaluation import images, machine, schedule, suite as suites, summary
@@ -51,14 +52,14 @@ def measure(suite, runner):
     """Yields the summary of one scene after another."""
     for s in suite.scenes:
         runner.say(s.name)
-        file = runner.scene_file(s)
-        try: references = schedule.reference_halves(runner, suite, s, file)
-        except Failed as e:
-            runner.say("  no reference, so the scene is left out: %s" % e)
-            continue
-        found = schedule.scene_runs(runner, suite, s, file)
-        yield summary.scene(suite, s, runner.scene_hash(file), references, found,
-                            lambda name: images.load(runner.path(name)), suite.threads)
+        try:
+            file = runner.scene_file(s)
+            references = schedule.reference_halves(runner, suite, s, file)
+            found = schedule.scene_runs(runner, suite, s, file)
+            yield summary.scene(suite, s, runner.scene_hash(file), references, found,
+                                lambda name: images.load(runner.path(name)))
+        except (Failed, OSError, ValueError, subprocess.CalledProcessError) as e:
+            runner.say("  the scene is left out: %s" % e)
 
 
 def main():

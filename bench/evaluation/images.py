@@ -8,7 +8,9 @@ import numpy as np
 
 def load(path):
     """Linear RGB. PFM needs numpy only; OpenImageIO reads all else."""
-    return _load_pfm(path) if path.endswith(".pfm") else _load_other(path)
+    image = _load_pfm(path) if path.endswith(".pfm") else _load_other(path)
+    if not np.isfinite(image).all(): raise ValueError("%s: values that are not finite" % path)
+    return image
 
 
 def _load_pfm(path):

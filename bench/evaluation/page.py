@@ -10,7 +10,7 @@ from .plots import count, number
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 COLOURS = 7  # in page.css
-BUSY = .9  # share of its processors that a program gets on a machine that is its own
+BUSY = .05  # share of the processors that others take on a machine that is not quiet
 
 
 def _file(name):
@@ -78,10 +78,9 @@ def _pictures(shown):
 
 def _warnings(scene):
     runs = [v for v in scene["variants"] if v["runs"]]
-    shares = [v["cpu_share"] for v in runs if v["cpu_share"] is not None]
-    if shares and min(shares) < BUSY:
-        yield ("The program got only %.0f to %.0f %% of its processors: the machine was busy with other things, and "
-               "times are not to be trusted." % (100 * min(shares), 100 * max(shares)))
+    others = max((v["others_share"] for v in runs), default=0)
+    if others > BUSY:
+        yield "Other programs took up to %.0f %% of the processors: times are not to be trusted." % (100 * others)
     if any(abs(v["bias"]["z"] or 0) > tables.SUSPICIOUS_Z for v in runs):
         yield "A mean differs from the reference's by more than chance: a light sampler is biased, or the reference is."
     if any(v["against_base"]["trimmed"] is None for v in runs):

@@ -6,6 +6,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 
@@ -63,7 +64,7 @@ class Runner:
         folder = self.path("scenes")
         kind, *names = scene.generate
         script = os.path.join(ROOT, "scenes", "generate.py")
-        subprocess.run([os.environ.get("PYTHON", "python3"), script, kind, folder, *names], check=True)
+        subprocess.run([sys.executable, script, kind, folder, *names], check=True)
         return os.path.join(folder, names[0].partition("=")[0] + ".pbrt")
 
     def render(self, task, depends_on_binary=True):
@@ -88,16 +89,26 @@ class Runner:
                    "--stats", stem + ".stats.json", "--out", stem + ".pfm", "-q"]
         for d in task.define: command += ["-D", d]
         self.say("  %-50s %s" % (task.where, " ".join(task.limit)))
-        before = time.monotonic()
+        before, busy_before = time.monotonic(), _busy_seconds()
         # A scene may take its time to load, but a render that was given seconds must end.
         allowed = 600 + 3 * float(task.limit[1]) if task.limit[0] == "--seconds" else 6 * 3600
         status, usage, text = _watched(command, stem + ".log", allowed)
-        wall = time.monotonic() - before
+        wall, busy = time.monotonic() - before, _busy_seconds() - busy_before
         if status: raise Failed("%s\n%s" % ("exit code %d" % status if status > 0 else "stopped by signal %d" % -status,
                                             text.strip()[-800:]))
         with open(stem + ".stats.json") as f: stats = json.load(f)
-        return {"image": task.where + ".pfm", "seed": task.seed, "limit": list(task.limit), "wall": wall,
-                "cpu": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss * 1024, "stats": stats}
+        cpu = usage.ru_utime + usage.ru_stime
+        return {"image": task.where + ".pfm", "seed": task.seed, "limit": list(task.limit), "wall": wall, "cpu": cpu,
+                "others": max(0., busy - cpu) / (wall * os.cpu_count()), "memory": usage.ru_maxrss * 1024,
+                "stats": stats}
+
+
+def _busy_seconds():
+    """Of all processors together since the start of the machine; 0 where the system doesn't tell."""
+    try:
+        with open("/proc/stat") as f: user, nice, system, _, _, *interrupts = map(int, f.readline().split()[1:9])
+    except (OSError, ValueError): return 0.
+    return (user + nice + system + sum(interrupts)) / os.sysconf("SC_CLK_TCK")
 
 
 def _watched(command, log, allowed):

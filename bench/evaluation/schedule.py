@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which renders a scene of a suite needs, and in which order."""
-from .runs import Failed, Task
+import os
+
+from .runs import Failed, Task, key_of
 
 REFERENCE_SEED = 1000000  # runs have the seeds 1, 2, …: a reference must be independent of them
 
@@ -9,7 +11,10 @@ def reference_halves(runner, suite, scene, file):
     wanted = suite.scene_reference(scene)
     limit = ("--seconds", "%g" % wanted.seconds) if wanted.seconds else ("--spp", str(wanted.spp))
     define = tuple(suite.scene_define(scene) + wanted.define)
-    return [runner.render(Task("references/%s-%d" % (scene.name, k), file, define, limit, REFERENCE_SEED + k),
+    # Named by what they are made from: scenes of a suite that differ in their variants only share them.
+    stem = os.path.splitext(os.path.basename(file))[0]
+    where = "references/%s-%s" % (stem, key_of(runner.scene_hash(file), define, limit)[:8])
+    return [runner.render(Task("%s-%d" % (where, k), file, define, limit, REFERENCE_SEED + k),
                           depends_on_binary=False) for k in (0, 1)]
 
 

@@ -26,13 +26,12 @@ def _cut_statistics(runs):
     return {name: _median(values) for name, values in found.items()}
 
 
-def _run(record, errors, threads):
+def _run(record, errors):
     stats = record["stats"]
-    busy = threads * record["wall"]
     return {"seed": record["seed"], "seconds": stats["seconds"]["render"], "load_seconds": stats["seconds"]["load"],
             "spp": _statistics(record, "render", "samples per pixel"),
             "samples_per_second": _statistics(record, "render", "camera paths per second"),
-            "cpu_share": record["cpu"] / busy if busy else None, "memory": record["memory"],
+            "others_share": record["others"], "memory": record["memory"],
             "image": record["image"], **errors}
 
 
@@ -75,14 +74,14 @@ def _equal_samples(base, other, floor):
     return {"spp": other[-1]["spp"], **_against(runs(base[-1]), runs(other[-1]), lambda run: 1, floor)}
 
 
-def _variant(variant, found, halves, floor, load, threads):
+def _variant(variant, found, halves, floor, load):
     reference = (halves[0] + halves[1]) / 2
     pictures = [load(r["image"]) for r in found["runs"]]
-    runs = [_run(r, measures.errors(p, reference), threads) for r, p in zip(found["runs"], pictures)]
+    runs = [_run(r, measures.errors(p, reference)) for r, p in zip(found["runs"], pictures)]
     result = {"name": variant.name, "title": variant.title or variant.name, "define": variant.define,
               "failed": found["failed"], "runs": runs, "curve": _mean_curve(found["curves"], load, reference)}
     if not runs: return result
-    for key in ("seconds", "spp", "samples_per_second", "memory", "load_seconds", "cpu_share"):
+    for key in ("seconds", "spp", "samples_per_second", "memory", "load_seconds", "others_share"):
         result[key] = _median([r[key] for r in runs if r[key] is not None])
     result["errors"] = {m: measures.mean([r[m] for r in runs]) for m in METRICS}
     result["bias"] = measures.bias(pictures, halves)
@@ -100,11 +99,11 @@ def _facts(found):
             "tree_bytes": first("light tree", "bytes"), "tree_seconds": first("light tree", "build seconds")}
 
 
-def scene(suite, scene, file_hash, references, found, load, threads):
+def scene(suite, scene, file_hash, references, found, load):
     """`load` gives the image of a record's file name."""
     halves = [load(r["image"]) for r in references]
     floor = measures.floor_of(halves)
-    variants = [_variant(v, found[v.name], halves, floor, load, threads) for v in suite.scene_variants(scene)]
+    variants = [_variant(v, found[v.name], halves, floor, load) for v in suite.scene_variants(scene)]
     base = next(v for v in variants if v["name"] == suite.scene_base(scene))
     for v in variants:
         v["against_base"] = _against(base["runs"], v["runs"], lambda run: run["seconds"], floor)
