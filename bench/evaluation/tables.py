@@ -54,7 +54,8 @@ def variant_rows(scene, colour_of, cut_names):
     best = best_of(scene["variants"], lambda v: (v["against_base"]["trimmed"] or {}).get("value"))
     columns = 10 + len(cut_names)
     for v in scene["variants"]:
-        head = '<tr><th scope="row">%s%s</th>' % (swatch(colour_of[v["name"]]), html.escape(v["title"]))
+        head = '<tr><th scope="row">%s%s%s</th>' % (
+            swatch(colour_of[v["name"]]), html.escape(v["title"]), " (then failed)" if v["runs"] and v["failed"] else "")
         if not v["runs"]:
             yield head + '<td class="why" colspan="%d">failed: %s</td></tr>' % (
                 columns, html.escape(v["failed"].strip().split("\n")[-1][:300]))
@@ -108,7 +109,7 @@ def geometric_means(scenes, titles, base):
 def mean_row(scenes, titles, base):
     means, counted = geometric_means(scenes, titles, base)
     if counted < 2: return ""
-    shown = ["1" if n == base else number(means[n]) + "×" if n in means else "–" for n in titles]
+    shown = ["–" if n not in means else "1" if n == base else number(means[n]) + "×" for n in titles]
     return '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
         counted, "".join(map(cell, shown)))
 
