@@ -15,13 +15,14 @@ from html.parser import HTMLParser
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BENCH = os.path.join(HERE, "..", "..", "bench")
-sys.path.insert(0, BENCH)
+sys.path[:0] = [BENCH, os.path.join(BENCH, "..", "scenes")]
 try:
     import numpy as np
 except ImportError:
     print("SKIPPED: numpy is missing (Debian: python3-numpy)")
     sys.exit(0)
 from evaluation import colours, images, measures, plots, suite as suites  # noqa: E402
+from generator import splitting, thesis  # noqa: E402
 
 
 def noisy(rng, sigma, shape=(40, 50, 3)): return 1 + rng.normal(0, sigma, shape)
@@ -49,6 +50,20 @@ class Measures(unittest.TestCase):
         a, b = noisy(rng, .1), noisy(rng, .1)
         for m in ("relmse", "trimmed"):
             self.assertAlmostEqual(measures.errors(a, b)[m], measures.errors(1e6 * a, 1e6 * b)[m])
+
+    @unittest.skipUnless(os.environ.get("LAMPYRIS_BINARY"), "LAMPYRIS_BINARY is not set")
+    def test_errors_are_those_of_the_program(self):
+        rng = np.random.default_rng(7)
+        pixels = [rng.gamma(.5, 2, (30, 40, 3)).astype("<f4") for _ in range(2)]
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("a.pfm", "b.pfm")]
+            for path, p in zip(paths, pixels):
+                with open(path, "wb") as f: f.write(b"PF\n40 30\n-1.0\n" + p.tobytes())
+            done = subprocess.run([os.environ["LAMPYRIS_BINARY"], "compare", *paths], capture_output=True, text=True, check=True)
+            told = dict(line.rsplit(None, 1) for line in done.stdout.splitlines() if line)
+            own = measures.errors(*map(images.load, paths))
+        for name, key in (("MSE", "mse"), ("relMSE", "relmse"), ("relMSE, trimmed", "trimmed")):
+            self.assertAlmostEqual(float(told[name]) / own[key], 1, delta=1e-5)
 
     def test_floor_is_the_error_of_the_reference(self):
         rng = np.random.default_rng(2)
@@ -127,7 +142,10 @@ class Numbers(unittest.TestCase):
 class SuiteFiles(unittest.TestCase):
     def test_those_of_the_project_are_right(self):
         folder = os.path.join(BENCH, "suites")
-        for name in os.listdir(folder): suites.read(os.path.join(folder, name))
+        for name in os.listdir(folder):
+            for scene in suites.read(os.path.join(folder, name)).scenes:
+                family, made = scene.generate
+                self.assertIn(made.partition("=")[0], {"thesis": thesis, "splitting": splitting}[family].SCENES)
 
     def test_faults_are_told(self):
         good = {"name": "s", "base": "a", "variants": [{"name": "a"}], "scenes": [{"name": "x", "file": "x.pbrt"}],
