@@ -71,7 +71,7 @@ def main():
     results = {"suite": suite.name, "title": suite.title or suite.name, "description": suite.description,
                "date": datetime.date.today().isoformat(), "seconds": suite.seconds, "threads": suite.threads,
                "repetitions": suite.repetitions, "machine": machine.machine(), "build": machine.build(args.binary),
-               "scenes": []}
+               "variants": {v.name: v.title or v.name for v in suite.variants}, "scenes": []}
     path = runner.path("results.json")
     try:
         for s in measure(suite, runner):

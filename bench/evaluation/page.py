@@ -130,7 +130,8 @@ def _forest(scenes, colour_of, base):
 def page(results, load):
     """The HTML. `load` gives the image of a file name in the results."""
     scenes = results["scenes"]
-    titles = {v["name"]: v["title"] for s in scenes for v in s["variants"]}
+    shown = {v["name"] for s in scenes for v in s["variants"]}
+    titles = {name: title for name, title in results["variants"].items() if name in shown}
     base = Counter(s["base"] for s in scenes).most_common(1)[0][0]
     ordered = [base] + [n for n in titles if n != base]
     titles, colour_of = {n: titles[n] for n in ordered}, {n: k % COLOURS for k, n in enumerate(ordered)}
