@@ -24,4 +24,14 @@ float Shape::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p, co
   return safeDivide(distance2 * pdfArea(element, n), cosine);
 }
 
+std::optional<ShapeHit> Shape::locate(uint32_t element, const Vec3& p, const Vec3& n) const {
+  // Long enough for rounding, short enough to miss the far side.
+  const float reach = 1e-3f * bounds(element).diagonal();
+  Ray ray;
+  ray.o = p + reach * n;
+  ray.d = -2 * reach * n;
+  ray.tMax = 1;
+  return intersect(element, ray);
+}
+
 }  // namespace lampyris

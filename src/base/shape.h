@@ -68,6 +68,10 @@ class Shape {
   /// the element; equal to what sampleSolidAngle reports for it.
   virtual float pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
                               const Vec3& n) const;
+  /// Where a point `p` (normal `n`) that a sample function returned lies on the element: what
+  /// surface() takes. For emitters whose light varies, so that others need not carry it along. The
+  /// default meets a short ray along `n`. None where rounding has put p beyond the edge.
+  virtual std::optional<ShapeHit> locate(uint32_t element, const Vec3& p, const Vec3& n) const;
   /// Bounds of the element's normals: axis and cosine of the largest deviation (−1: anything).
   struct NormalCone {
     Vec3 axis{0, 0, 1};

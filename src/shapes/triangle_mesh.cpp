@@ -237,6 +237,18 @@ std::optional<ShapeSample> TriangleMesh::sampleArea(uint32_t element, const Vec2
   return s;
 }
 
+std::optional<ShapeHit> TriangleMesh::locate(uint32_t element, const Vec3& p, const Vec3&) const {
+  const Corners c = corners(element);
+  const DVec3 e1 = DVec3(c.p1) - DVec3(c.p0), e2 = DVec3(c.p2) - DVec3(c.p0);
+  const DVec3 n = glm::cross(e1, e2), d = DVec3(p) - DVec3(c.p0);
+  const double square = glm::dot(n, n);
+  if (!(square > 0)) return std::nullopt;
+  // Rounding may have put p a little outside.
+  const double b1 = std::clamp(glm::dot(glm::cross(d, e2), n) / square, 0., 1.);
+  const double b2 = std::clamp(glm::dot(glm::cross(e1, d), n) / square, 0., 1. - b1);
+  return ShapeHit{0, {static_cast<float>(b1), static_cast<float>(b2)}};
+}
+
 Shape::NormalCone TriangleMesh::normalCone(uint32_t element) const {
   const Corners c = corners(element);
   const Vec3 n = unit(areaNormal(c.p0, c.p1, c.p2));

@@ -39,6 +39,7 @@ class TriangleMesh final : public Shape {
                SurfaceInteraction& out) const override;
   float area(uint32_t element) const override;
   std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const override;
+  std::optional<ShapeHit> locate(uint32_t element, const Vec3& p, const Vec3& n) const override;
   NormalCone normalCone(uint32_t element) const override;
 
   const TriangleMeshData& data() const { return data_; }  ///< positions: with the padding element

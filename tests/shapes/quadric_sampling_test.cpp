@@ -48,11 +48,9 @@ TEST(QuadricSampling, AreaHasItsClosedForm) {
               2 * M_PI * (1 + c * std::asin(e) / e), 1e-4);
 }
 
-/// The surface where a short ray against the normal of a sample meets it; none at a cut's edge,
-/// which rounding may carry the ray past.
+/// Where a sample says it is; nowhere at a cut's edge, which rounding may carry it past.
 std::optional<ShapeHit> hitAt(const Shape& shape, const ShapeSample& s) {
-  const float above = 1e-3f * shape.bounds(0).diagonal();
-  return shape.intersect(0, Ray{s.p + above * s.n, -s.n, 2 * above});
+  return shape.locate(0, s.p, s.n);
 }
 
 TEST(QuadricSampling, SamplesLieOnTheSurfaceWithTheirPdf) {

@@ -48,6 +48,22 @@ TEST(TriangleMesh, PositionsUvAndDerivatives) {
   }
 }
 
+TEST(TriangleMesh, LocatesItsSamples) {
+  for (const float scale : {1e-4f, 1.f, 1e4f}) {
+    const auto mesh = makeShape(
+        "trianglemesh",
+        triangle().floats("uv", {0.1f, 0.2f, 0.8f, 0.3f, 0.4f, 0.9f}, ParameterType::Point2),
+        Transform::translate(Vec3(3 * scale)) * Transform::scale(Vec3(scale)));
+    for (uint64_t i = 0; i < 500; ++i) {
+      const auto s = mesh->sampleArea(0, {uniform(3, i, 0), uniform(3, i, 1)});
+      const auto hit = mesh->locate(0, s->p, s->n);
+      ASSERT_TRUE(hit);
+      EXPECT_GE(1 - hit->uv.x - hit->uv.y, -1e-6f);
+      EXPECT_LT(distance(at(*mesh, hit->uv).p, s->p), 1e-5f * scale);
+    }
+  }
+}
+
 TEST(TriangleMesh, DegenerateUvHaveAnArbitraryFrame) {
   const auto mesh = makeShape(
       "trianglemesh", triangle()
