@@ -6,6 +6,7 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -33,8 +34,12 @@ int threadCount() {
 void parallelFor(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
   // TBB halves what is larger than its grain size: at 2 grain − 1, halves have at least `grain`.
   const size_t largest = 2 * std::clamp<size_t>(grain, 1, SIZE_MAX / 2) - 1;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, largest),
-                    [&body](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
+  // Isolated: while it waits, a thread that holds a lock must take nothing of an outer loop, which
+  // may want the same lock.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, largest),
+                      [&body](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
+  });
 }
 
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
