@@ -75,24 +75,9 @@ struct RowSums {
 
 }  // namespace
 
-EnvironmentMap::EnvironmentMap(std::shared_ptr<const Image> image, const Rgb& scale)
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const EmissionImage> image, const Rgb& scale)
     : image_(std::move(image)), scale_(scale) {
   buildTables();
-}
-
-Rgb EnvironmentMap::lookup(const Vec2& st) const {
-  const int w = image_->width(), h = image_->height();
-  const float s = st.x * static_cast<float>(w) - 0.5f, t = st.y * static_cast<float>(h) - 0.5f;
-  const float s0 = std::floor(s), t0 = std::floor(t);
-  const float ds = s - s0, dt = t - t0;
-  const auto wrap = [](float v, int n) {
-    const int i = static_cast<int>(v) % n;
-    return i < 0 ? i + n : i;
-  };
-  const int x0 = wrap(s0, w), x1 = x0 + 1 == w ? 0 : x0 + 1;
-  const int y0 = wrap(t0, h), y1 = y0 + 1 == h ? 0 : y0 + 1;
-  return (1 - ds) * (1 - dt) * image_->rgb(x0, y0) + ds * (1 - dt) * image_->rgb(x1, y0) +
-         (1 - ds) * dt * image_->rgb(x0, y1) + ds * dt * image_->rgb(x1, y1);
 }
 
 void EnvironmentMap::buildTables() {
@@ -113,7 +98,7 @@ void EnvironmentMap::buildTables() {
       const double weight = cellAngles * static_cast<double>(sine);
       for (size_t fx = 0; fx < fineWidth; ++fx) {
         const float s = (static_cast<float>(fx) + 0.5f) / static_cast<float>(fineWidth);
-        const Rgb c = lookup({s, t});
+        const Rgb c = image_->bilinear({s, t});
         values[fy / block * width + fx / block] += (c * scale_).luminance() * sine;
         const Vec3 d = sphericalDirection(sine, cosine, 2 * kPi * s);
         sums[fy / block].add(c, weight, sphericalHarmonics(d.x, d.y, d.z));
@@ -136,7 +121,7 @@ void EnvironmentMap::buildTables() {
   distribution_ = Distribution2D(values, static_cast<int>(width), static_cast<int>(height));
 }
 
-Rgb EnvironmentMap::radiance(const Vec3& w) const { return scale_ * lookup(toSt(w)); }
+Rgb EnvironmentMap::radiance(const Vec3& w) const { return scale_ * image_->bilinear(toSt(w)); }
 
 Vec3 EnvironmentMap::sample(const Vec2& u) const {
   const Vec2 st = distribution_.sample(u).p;

@@ -5,20 +5,17 @@
 #include <array>
 #include <memory>
 
-#include "core/image.h"
-#include "core/rgb.h"
 #include "core/sampling.h"
-#include "core/vector.h"
+#include "lights/emission_image.h"
 
 namespace lampyris {
 
 /// Conventions of pbrt-v3: z is up, the image's top row lies at θ = 0, columns run with φ from +x
-/// over +y; values are used as stored, also those of 8-bit files. Bilinear between the texels'
-/// centres, both axes wrap. Directions are unit and in the light's space.
+/// over +y; bilinear between the texels' centres, both axes wrap. Directions are unit and in the
+/// light's space.
 class EnvironmentMap {
  public:
-  /// `image` must not be empty; values that are negative or not finite must have been removed.
-  EnvironmentMap(std::shared_ptr<const Image> image, const Rgb& scale);
+  EnvironmentMap(std::shared_ptr<const EmissionImage> image, const Rgb& scale);
 
   Rgb radiance(const Vec3& w) const;
   /// A direction with density pdf(w); of measure zero at the poles.
@@ -34,9 +31,8 @@ class EnvironmentMap {
 
  private:
   void buildTables();
-  Rgb lookup(const Vec2& st) const;
 
-  std::shared_ptr<const Image> image_;
+  std::shared_ptr<const EmissionImage> image_;
   Rgb scale_;
   Rgb mean_;
   std::array<double, 9> harmonics_{};  ///< of the luminance

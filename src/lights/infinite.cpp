@@ -72,7 +72,7 @@ class ConstantInfiniteLight final : public InfiniteLight {
 
 class MappedInfiniteLight final : public InfiniteLight {
  public:
-  MappedInfiniteLight(std::shared_ptr<const Image> image, const Rgb& scale, int samples,
+  MappedInfiniteLight(std::shared_ptr<const EmissionImage> image, const Rgb& scale, int samples,
                       const Transform& lightToWorld)
       : InfiniteLight(samples),
         map_(std::move(image), scale),
@@ -110,32 +110,15 @@ class MappedInfiniteLight final : public InfiniteLight {
   float determinant_;
 };
 
-/// The image, without values that no light can have.
-std::shared_ptr<const Image> cleanImage(std::shared_ptr<const LoadedImage> loaded,
-                                        const LightContext& context, const std::string& name) {
-  const auto fine = [](float v) { return v >= 0 && std::isfinite(v); };
-  const Image& image = loaded->image;
-  if (image.empty()) throw SceneError(context.location, "image \"" + name + "\" has no pixels");
-  std::shared_ptr<const Image> shared(loaded, &loaded->image);
-  if (std::all_of(image.data().begin(), image.data().end(), fine)) return shared;
-  context.diagnostics.warn(context.location, "image \"" + name +
-                                                 "\" has values that are negative or not finite; "
-                                                 "they count as 0");
-  auto copy = std::make_shared<Image>(image);
-  for (float& v : copy->data())
-    if (!fine(v)) v = 0;
-  return copy;
-}
-
 std::unique_ptr<Light> create(const InfiniteLightParameters& p, const LightContext& context) {
   const Rgb scale = emittedColor(p.radiance, p.scale, context);
   if (p.map.empty()) return std::make_unique<ConstantInfiniteLight>(scale, p.samples);
   if (context.lightToWorld.isSingular())
     throw SceneError(context.location,
                      "the infinite light's transform has no inverse (a scale of 0?)");
-  const std::string path = context.resolvePath ? context.resolvePath(p.map) : p.map;
-  return std::make_unique<MappedInfiniteLight>(cleanImage(context.images.get(path), context, p.map),
-                                               scale, p.samples, context.lightToWorld);
+  return std::make_unique<MappedInfiniteLight>(
+      EmissionImage::load(p.map, EmissionImage::Encoding::Linear, context.images, context), scale,
+      p.samples, context.lightToWorld);
 }
 
 }  // namespace

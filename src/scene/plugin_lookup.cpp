@@ -22,7 +22,6 @@ const std::vector<KindNames>& pbrtNames() {
       {"material", "material", {"disney", "hair", "fourier", "subsurface", "kdsubsurface"}},
       {"float texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
       {"spectrum texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
-      {"light", "light", {"projection", "goniometric"}},
       {"camera", "camera", {"realistic"}},
       {"integrator",
        "integrator",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light_scenes.h"
 
+#include <gtest/gtest.h>
+
 #include "core/sampling.h"
 #include "lightdistributions/registry.h"
 #include "lights/area_registry.h"
@@ -45,12 +47,13 @@ void addCloud(LightScene& s, Cloud kind, size_t count, const Place& place = {}) 
   s.add(std::make_unique<CloudLight>(std::move(points)));
 }
 
-void addNamed(LightScene& s, const std::string& name, const TestParameters::List& list) {
+void addNamed(LightScene& s, const std::string& name, const TestParameters::List& list,
+              const Transform& lightToWorld = {}) {
   TestBuild build;
   ImageCache images;
   const auto& plugin = lightRegistry().get(name, {});
   const TestParameters p(plugin.schema, list);
-  s.add(plugin.create(p.set(), LightContext{build.base(), Transform(), images}));
+  s.add(plugin.create(p.set(), LightContext{build.base(), lightToWorld, images}));
 }
 
 void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {}) {
@@ -66,6 +69,23 @@ void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {
   const TestParameters p(plugin.schema,
                          {{"twosided", twoSided ? "true" : "false"}, {"L", "90 90 90"}});
   s.add(plugin.create(p.set(), AreaLightContext{build.base(), *s.shapes.back(), images}));
+}
+
+/// Slide projectors and goniometric lights that face all ways, half of them with an image.
+void addPatterns(LightScene& s, size_t count) {
+  Image image(5, 3, 3);
+  for (size_t i = 0; i < image.data().size(); ++i) image.data()[i] = i % 4 ? 0.f : 1.f;
+  const std::string map = testing::TempDir() + "pattern.pfm";
+  writeImageFile(map, image);
+  for (size_t i = 0; i < count; ++i) {
+    const Transform place = Transform::translate(randomPoint(i, 70)) *
+                            Transform::rotate(360 * uniform(21, i, 73), randomDirection(i, 74));
+    TestParameters::List list;
+    if (i % 2) list.push_back({"mapname", map});
+    addNamed(s, "goniometric", list, place);
+    list.push_back({"fov", std::to_string(1 + 150 * uniform(21, i, 76))});
+    addNamed(s, "projection", list, place);
+  }
 }
 
 std::unique_ptr<LightScene> mixed(const std::string& name, const Place& place) {
@@ -123,6 +143,7 @@ std::vector<std::unique_ptr<LightScene>> smallLightScenes() {
   addCloud(keep(emptyScene("spots")), Cloud::Spots, 300);
   addQuads(keep(emptyScene("one-sided")), 150, false);
   addQuads(keep(emptyScene("two-sided")), 150, true);
+  addPatterns(keep(emptyScene("patterns")), 60);
   LightScene& suns = keep(emptyScene("no positions"));
   addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 1"}});
   addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 -1"}});

@@ -115,7 +115,7 @@ TEST(Lights, FaultyInput) {
 TEST(Lights, BlackOnesSendNothing) {
   LightMaker maker;
   for (const auto& plugin : lightRegistry().entries()) {
-    const char* color = plugin.name == "point" || plugin.name == "spot" ? "I" : "L";
+    const char* color = plugin.schema.find("I") ? "I" : "L";
     const auto light = maker.make(plugin.name, {{color, "0 0 0"}});
     light->prepare(Bounds3(Vec3(-1), Vec3(1)));
     EXPECT_TRUE(light->power(0).isBlack()) << plugin.name;

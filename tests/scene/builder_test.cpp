@@ -240,7 +240,6 @@ TEST(Builder, NamesOfPbrtThatAreNotThereYet) {
       {world("Material \"disney\" " + t), "3:1: \"disney\" is a pbrt-v3 material" + yet},
       {world("Texture \"t\" \"color\" \"marble\" Material \"matte\" \"texture Kd\" \"t\" " + t),
        "3:1: \"marble\" is a pbrt-v3 texture" + yet},
-      {world("LightSource \"goniometric\""), "3:1: \"goniometric\" is a pbrt-v3 light" + yet},
       {"Camera \"realistic\" " + world(""), "1:1: \"realistic\" is a pbrt-v3 camera" + yet},
       {"Integrator \"bdpt\" " + world(""), "1:1: \"bdpt\" is a pbrt-v3 integrator" + yet},
       {"Integrator \"mlt\" " + world(""), "1:1: \"mlt\" is a pbrt-v3 integrator" + yet},

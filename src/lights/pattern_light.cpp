@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lights/pattern_light.h"
+
+#include <cmath>
+
+#include "lights/emission.h"
+
+namespace lampyris {
+
+void PatternLightParameters::declare(Declaration& d) {
+  d.add("I", intensity, "Radiant intensity (W/sr) where the image is white.");
+  d.add("scale", scale, "Factor on I.");
+  d.add("mapname", map, "The image; values are taken as linear. Without one it is white.");
+}
+
+PatternLight::PatternLight(const PatternLightParameters& parameters, const LightContext& context,
+                           const std::string& name)
+    : lightToWorld_(context.lightToWorld),
+      worldToLight_(context.lightToWorld.inverse()),
+      p_(context.lightToWorld.point(Vec3(0))),
+      intensity_(emittedColor(parameters.intensity, parameters.scale, context)) {
+  if (lightToWorld_.isSingular())
+    throw SceneError(context.location,
+                     "the " + name + " light's transform has no inverse (a scale of 0?)");
+  if (!parameters.map.empty())
+    image_ = EmissionImage::load(parameters.map, EmissionImage::Encoding::Linear, context.images,
+                                 context);
+}
+
+std::optional<LightSample> PatternLight::sample(uint32_t, const Vec3& from, const Vec2&) const {
+  const Vec3 d = p_ - from;
+  const float squared = lengthSquared(d);
+  if (!(squared > 0)) return std::nullopt;
+  LightSample s;
+  s.distance = std::sqrt(squared);
+  s.wi = d / s.distance;
+  s.radiance = intensity_ * pattern(normalize(worldToLight_.vector(-s.wi))) / squared;
+  if (s.radiance.isBlack() || !s.radiance.isFinite()) return std::nullopt;
+  s.pdf = 1;
+  s.p = p_;
+  return s;
+}
+
+double PatternLight::stretch(const Vec3& w) const {
+  const auto ratio =
+      static_cast<double>(length(w)) / static_cast<double>(length(lightToWorld_.vector(w)));
+  return ratio * ratio * ratio;
+}
+
+LightBounds PatternLight::boundsOf(const Rgb& meanPattern) const {
+  LightBounds b;
+  b.box = Bounds3(p_);
+  b.intensity = (intensity_ * meanPattern).luminance();
+  return b;
+}
+
+}  // namespace lampyris
