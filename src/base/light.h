@@ -35,8 +35,9 @@ struct LightBounds {
   float cosThetaE = 0;
   bool twoSided = false;
   /// Luminance of the largest radiant intensity in any direction (W/sr): a point light's I, a
-  /// spot's I, L × area for an emitter. Equal for a point light and a small sphere that looks the
-  /// same from afar.
+  /// spot's I, L × area for a flat emitter, a quarter of that for a sphere. Where emission varies
+  /// over directions or places by a map, its mean takes the map's place. Equal for a point light
+  /// and a small sphere that looks the same from afar.
   float intensity = 0;
 };
 
@@ -93,6 +94,7 @@ struct LightContext : BuildContext {
 struct AreaLightContext : BuildContext {
   const Shape& shape;
   ImageCache& images;
+  const TextureResolver& textures;
 };
 
 using LightRegistry = Registry<Light, LightContext>;

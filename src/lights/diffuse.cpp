@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "base/light.h"
 #include "lights/emission.h"
+#include "lights/surface_emission.h"
 
 namespace lampyris {
 namespace {
 
 struct DiffuseLightParameters {
-  Rgb radiance{1}, scale{1};
+  RgbInput radiance{1};
+  Rgb scale{1};
+  std::string filename;
   bool twoSided = false;
   int samples = 1;
   void declare(Declaration& d) {
-    d.add("L", radiance, "Emitted radiance, W/(m² sr).");
+    d.add("L", radiance,
+          "Emitted radiance, W/(m² sr): a colour, a spectrum texture, or a factor on the picture.");
     d.add("scale", scale, "Factor on L.");
+    d.add("filename", filename,
+          "Picture that the surface emits: PNG, JPG, TGA, BMP (sRGB-encoded), HDR, EXR or PFM. It "
+          "lies in the (u, v) square and repeats beyond.");
     d.add("twosided", twoSided, "Whether the side against the normal emits as well.");
     d.add("samples", samples, "Wish for samples a point in direct lighting.")
         .alias("nsamples")
@@ -19,11 +28,24 @@ struct DiffuseLightParameters {
   }
 };
 
-/// All elements of a shape; nothing is kept for one of them.
+/// Largest radiant intensity of an emitter without its own shadow, over radiance × area: the mean
+/// cosine of normals that are spread evenly over a cone. 1 for flat ones, 1/4 for spheres. Two
+/// sides change nothing: where both face the viewer, one of them hides the other.
+float projectedShare(float cosTheta) {
+  return cosTheta >= 0 ? (1 + cosTheta) / 2 : 1 / (2 * (1 - cosTheta));
+}
+
+/// All elements of a shape; for those of constant radiance nothing is kept.
 class DiffuseAreaLight final : public Light {
  public:
-  DiffuseAreaLight(const Shape& shape, const Rgb& radiance, bool twoSided, int samples)
-      : shape_(shape), radiance_(radiance), twoSided_(twoSided), samples_(samples) {}
+  /// `varying` in place of `radiance` if it is not null.
+  DiffuseAreaLight(const Shape& shape, const Rgb& radiance,
+                   std::unique_ptr<const SurfaceEmission> varying, bool twoSided, int samples)
+      : shape_(shape),
+        radiance_(radiance),
+        varying_(std::move(varying)),
+        twoSided_(twoSided),
+        samples_(samples) {}
 
   uint32_t elementCount() const override { return shape_.elementCount(); }
   bool isDelta() const override { return false; }
@@ -37,7 +59,8 @@ class DiffuseAreaLight final : public Light {
     s.distance = length(d);
     if (!(s.distance > 0)) return std::nullopt;
     s.wi = d * (1 / s.distance);
-    s.radiance = emittedAt(point->n, -s.wi);
+    if (!emitsTowards(point->n, -s.wi)) return std::nullopt;
+    s.radiance = varying_ ? varying_->at(element, point->p, point->n) : radiance_;
     if (s.radiance.isBlack()) return std::nullopt;
     s.pdf = point->pdf;
     s.p = point->p;
@@ -49,11 +72,12 @@ class DiffuseAreaLight final : public Light {
     return shape_.pdfSolidAngle(element, from, hit.p, hit.n);
   }
   Rgb emitted(const SurfaceInteraction& at, const Vec3& w) const override {
-    return emittedAt(at.n, w);
+    if (!emitsTowards(at.n, w)) return Rgb();
+    return varying_ ? varying_->at(at) : radiance_;
   }
 
   Rgb power(uint32_t element) const override {
-    return radiance_ * (kPi * shape_.area(element) * (twoSided_ ? 2.f : 1.f));
+    return meanRadiance(element) * (kPi * shape_.area(element) * (twoSided_ ? 2.f : 1.f));
   }
   std::optional<LightBounds> bounds(uint32_t element) const override {
     const Shape::NormalCone normals = shape_.normalCone(element);
@@ -63,32 +87,77 @@ class DiffuseAreaLight final : public Light {
     b.cosThetaO = normals.cosTheta;
     b.cosThetaE = 0;
     b.twoSided = twoSided_;
-    b.intensity = radiance_.luminance() * shape_.area(element);
+    b.intensity =
+        meanRadiance(element).luminance() * shape_.area(element) * projectedShare(normals.cosTheta);
     return b;
   }
   int samples() const override { return samples_; }
 
  private:
-  Rgb emittedAt(const Vec3& n, const Vec3& w) const {
-    return twoSided_ || dot(n, w) > 0 ? radiance_ : Rgb();
+  bool emitsTowards(const Vec3& n, const Vec3& w) const { return twoSided_ || dot(n, w) > 0; }
+  /// Grey where it varies.
+  Rgb meanRadiance(uint32_t element) const {
+    return varying_ ? Rgb(varying_->meanLuminance(element)) : radiance_;
   }
 
   const Shape& shape_;
   Rgb radiance_;
+  std::unique_ptr<const SurfaceEmission> varying_;
   bool twoSided_;
   int samples_;
 };
 
+std::unique_ptr<const SurfaceEmission> makePicture(const std::string& name, const Rgb& scale,
+                                                   const AreaLightContext& context) {
+  auto picture = EmissionImage::load(name, EmissionImage::Encoding::Srgb, context.images, context);
+  // One table for all shapes that emit the picture alike.
+  const std::string key =
+      fmt::format("{} {} {} {}", fmt::ptr(picture.get()), scale.r, scale.g, scale.b);
+  const auto means = context.images.shared<PictureMeans>(
+      key, [&] { return std::make_shared<const PictureMeans>(picture, scale); });
+  return std::make_unique<SurfaceEmission>(context.shape, std::move(picture), scale, *means);
+}
+
 std::unique_ptr<Light> create(const DiffuseLightParameters& p, const AreaLightContext& context) {
-  return std::make_unique<DiffuseAreaLight>(
-      context.shape, emittedColor(p.radiance, p.scale, context), p.twoSided, p.samples);
+  const TexturedRgb radiance = context.textures.resolve(p.radiance);
+  if (radiance.texture && !p.filename.empty())
+    throw SceneError(context.location,
+                     "the area light has both a \"texture L\" and a \"filename\": give one of them "
+                     "(\"scale\" works with either)");
+  const Rgb factor = emittedColor(radiance.texture ? Rgb(1) : radiance.value, p.scale, context);
+  std::unique_ptr<const SurfaceEmission> varying;
+  if (radiance.texture)
+    varying = std::make_unique<SurfaceEmission>(context.shape, *radiance.texture, factor);
+  else if (!p.filename.empty())
+    varying = makePicture(p.filename, factor, context);
+  return std::make_unique<DiffuseAreaLight>(context.shape, factor, std::move(varying), p.twoSided,
+                                            p.samples);
+}
+
+/// Elsewhere the last of two parameters of one name counts; a colour and a texture are two wishes.
+void checkRadiance(const ParameterSet& set) {
+  const Parameter* first = nullptr;
+  for (const Parameter& p : set.parameters) {
+    if (p.name != "L") continue;
+    if (!first) first = &p;
+    if ((p.type == ParameterType::Texture) != (first->type == ParameterType::Texture))
+      throw SceneError(p.location,
+                       "the area light has L as a colour and as a texture: give one of them, and "
+                       "\"scale\" as a factor");
+  }
 }
 
 }  // namespace
 
 AreaLightRegistry::Entry diffuseAreaLightPlugin() {
-  return makePlugin("diffuse", "A surface that emits the same radiance in all directions.", create,
-                    {"area"});
+  auto plugin = makePlugin("diffuse", "A surface that emits the same radiance in all directions.",
+                           create, {"area"});
+  plugin.create = [inner = plugin.create](const ParameterSet& set,
+                                          const AreaLightContext& context) {
+    checkRadiance(set);
+    return inner(set, context);
+  };
+  return plugin;
 }
 
 }  // namespace lampyris

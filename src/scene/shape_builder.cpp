@@ -127,7 +127,8 @@ void ShapeBuilder::create(BuiltShape& shape, const Plan& plan, std::unique_ptr<S
   for (uint32_t e = 0; e < out->elementCount(); ++e) shape.bounds.extend(out->bounds(e));
   if (!plan.light) return;
   shape.light = plan.light->create(
-      plan.lightParameters, {state_.context(plan.lightParameters.location), *out, state_.images});
+      plan.lightParameters,
+      {state_.context(plan.lightParameters.location), *out, state_.images, resolver});
   shape.primitive.light = shape.light.get();
 }
 

@@ -68,7 +68,8 @@ void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {
   const auto& plugin = areaLightRegistry().get("diffuse", {});
   const TestParameters p(plugin.schema,
                          {{"twosided", twoSided ? "true" : "false"}, {"L", "90 90 90"}});
-  s.add(plugin.create(p.set(), AreaLightContext{build.base(), *s.shapes.back(), images}));
+  s.add(plugin.create(p.set(),
+                      AreaLightContext{build.base(), *s.shapes.back(), images, build.textures}));
 }
 
 /// Slide projectors and goniometric lights that face all ways, half of them with an image.

@@ -26,7 +26,7 @@ struct LightMaker {
                                   const std::string& name = "diffuse") {
     const auto& plugin = areaLightRegistry().get(name, {});
     const TestParameters p(plugin.schema, list);
-    return plugin.create(p.set(), AreaLightContext{build.base(), shape, images});
+    return plugin.create(p.set(), AreaLightContext{build.base(), shape, images, build.textures});
   }
 };
 

@@ -247,6 +247,26 @@ TEST(Builder, NamesOfPbrtThatAreNotThereYet) {
   for (const auto& [text, error] : cases) EXPECT_EQ(buildError(text), error) << text;
 }
 
+TEST(Builder, AreaLightsWithTwoSourcesOfLight) {
+  const std::string t = kTriangle;
+  const std::string texture = "Texture \"glow\" \"color\" \"constant\" ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {world(texture + "\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"texture L\" \"glow\" " +
+             t),
+       "4:43: the area light has L as a colour and as a texture: give one of them, and \"scale\" "
+       "as "
+       "a factor"},
+      {world(texture +
+             "\nAreaLightSource \"diffuse\" \"texture L\" \"glow\" \"string filename\" \"a.exr\" " +
+             t),
+       "4:1: the area light has both a \"texture L\" and a \"filename\": give one of them "
+       "(\"scale\" works with either)"},
+      {world("AreaLightSource \"diffuse\" \"texture L\" \"glow\" " + t),
+       "3:27: unknown spectrum texture \"glow\""},
+  };
+  for (const auto& [text, error] : cases) EXPECT_EQ(buildError(text), error) << text;
+}
+
 TEST(Builder, UnknownNames) {
   const std::string t = kTriangle;
   const std::vector<std::pair<std::string, std::string>> cases = {
