@@ -21,7 +21,6 @@ constexpr double kMaxCells = 1024, kMaxSpan = 256;
 /// Triangles that span so few texels are looked up at points, too; cells, which miss nothing, keep
 /// a share.
 constexpr double kFewTexels = 3, kCellsShare = 0.01;
-constexpr int kPointSide = 6;
 /// Lines at which a row of cells is cut to measure coverage.
 constexpr int kLines = 4;
 /// Beyond this sums could overflow.
@@ -140,23 +139,24 @@ float PictureMeans::over(const std::array<Vec2, 3>& uv) const {
     const double x = extent.x * level.width + 1, y = extent.y * level.height + 1;
     if (!(x * y <= kMaxCells && x <= kMaxSpan && y <= kMaxSpan)) continue;
     const double mean = level.over(corners, slack);
-    const bool small =
-        extent.x * picture_->width() <= kFewTexels && extent.y * picture_->height() <= kFewTexels;
-    return static_cast<float>(small ? std::lerp(overPoints(corners), mean, kCellsShare) : mean);
+    const double texels = std::max(extent.x * picture_->width(), extent.y * picture_->height());
+    return static_cast<float>(
+        texels <= kFewTexels ? std::lerp(overPoints(corners, texels), mean, kCellsShare) : mean);
   }
   return levels_.back().cells[0];  // many repetitions, or numbers that are not finite
 }
 
-double PictureMeans::overPoints(const Corners& corners) const {
+double PictureMeans::overPoints(const Corners& corners, double texels) const {
+  const int side = 2 + static_cast<int>(2 * texels);
   double sum = 0;
-  for (int i = 0; i < kPointSide * kPointSide; ++i) {
-    const Vec2 u = (Vec2(i % kPointSide, i / kPointSide) + 0.5f) / static_cast<float>(kPointSide);
+  for (int i = 0; i < side * side; ++i) {
+    const Vec2 u = (Vec2(i % side, i / side) + 0.5f) / static_cast<float>(side);
     const Vec2 b = sampleUniformTriangle(u);
     const Vec2 at =
         b.x * Vec2(corners[0]) + b.y * Vec2(corners[1]) + (1 - b.x - b.y) * Vec2(corners[2]);
     sum += static_cast<double>(luminanceAt(picture_->bilinear(at)));
   }
-  return sum / (kPointSide * kPointSide);
+  return sum / (side * side);
 }
 
 double PictureMeans::Level::over(Corners corners, glm::dvec2 slack) const {

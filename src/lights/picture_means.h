@@ -37,7 +37,7 @@ class PictureMeans {
   Level finest() const;
   static Level halved(const Level& below);
   float luminanceAt(const Rgb& texel) const;
-  double overPoints(const std::array<glm::dvec2, 3>& corners) const;
+  double overPoints(const std::array<glm::dvec2, 3>& corners, double texels) const;
 
   std::shared_ptr<const EmissionImage> picture_;
   Rgb scale_;

@@ -190,7 +190,7 @@ TEST_P(LightDistributionContract, MillionCoincidentLights) {
 }
 
 TEST_P(LightDistributionContract, SurvivesNonsense) {
-  const auto& scene = *scenes()[11];
+  const auto& scene = *scenes()[12];
   ASSERT_EQ(scene.name, "mixed");
   const auto distribution = make(scene);
   for (const float bad : {std::nanf(""), kInfinity, -kInfinity, 3e38f, 1e-40f})

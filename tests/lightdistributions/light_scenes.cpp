@@ -7,6 +7,7 @@
 #include "lightdistributions/registry.h"
 #include "lights/area_registry.h"
 #include "lights/registry.h"
+#include "shapes/triangle_mesh.h"
 #include "support/statistics.h"
 
 namespace lampyris::test {
@@ -56,6 +57,16 @@ void addNamed(LightScene& s, const std::string& name, const TestParameters::List
   s.add(plugin.create(p.set(), LightContext{build.base(), lightToWorld, images}));
 }
 
+/// The last shape emits.
+void addEmitter(LightScene& s, const TestParameters::List& list) {
+  TestBuild build;
+  ImageCache images;
+  const auto& plugin = areaLightRegistry().get("diffuse", {});
+  const TestParameters p(plugin.schema, list);
+  s.add(plugin.create(p.set(),
+                      AreaLightContext{build.base(), *s.shapes.back(), images, build.textures}));
+}
+
 void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {}) {
   std::vector<Quad> quads(count);
   for (size_t i = 0; i < count; ++i) {
@@ -63,13 +74,7 @@ void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {
     quads[i] = {place(randomPoint(i, 30)), 0.1f * place.scale * a, 0.05f * place.scale * b};
   }
   s.shapes.push_back(std::make_unique<QuadShape>(std::move(quads)));
-  TestBuild build;
-  ImageCache images;
-  const auto& plugin = areaLightRegistry().get("diffuse", {});
-  const TestParameters p(plugin.schema,
-                         {{"twosided", twoSided ? "true" : "false"}, {"L", "90 90 90"}});
-  s.add(plugin.create(p.set(),
-                      AreaLightContext{build.base(), *s.shapes.back(), images, build.textures}));
+  addEmitter(s, {{"twosided", twoSided ? "true" : "false"}, {"L", "90 90 90"}});
 }
 
 /// Slide projectors and goniometric lights that face all ways, half of them with an image.
@@ -87,6 +92,31 @@ void addPatterns(LightScene& s, size_t count) {
     list.push_back({"fov", std::to_string(1 + 150 * uniform(21, i, 76))});
     addNamed(s, "projection", list, place);
   }
+}
+
+/// A square of 200 triangles that emits a picture: a third black, one texel very bright.
+void addPicture(LightScene& s) {
+  Image image(7, 6, 3);
+  for (size_t i = 0; i < image.data().size(); ++i)
+    image.data()[i] = i < 42 ? 0.f : uniform(21, i, 80);
+  image.setRgb(5, 4, Rgb(500));
+  const std::string path = testing::TempDir() + "picture.pfm";
+  writeImageFile(path, image);
+
+  constexpr uint32_t kSide = 10;
+  TriangleMeshData mesh;
+  for (uint32_t i = 0; i < (kSide + 1) * (kSide + 1); ++i) {
+    const Vec2 at = Vec2(i % (kSide + 1), i / (kSide + 1)) / static_cast<float>(kSide);
+    mesh.positions.emplace_back(at.x, at.y, 0.5f);
+    mesh.uvs.push_back(at);
+  }
+  for (uint32_t y = 0; y < kSide; ++y)
+    for (uint32_t x = 0; x < kSide; ++x) {
+      const uint32_t i = y * (kSide + 1) + x, above = i + kSide + 1;
+      mesh.indices.insert(mesh.indices.end(), {i, i + 1, above + 1, i, above + 1, above});
+    }
+  s.shapes.push_back(std::make_unique<TriangleMesh>(std::move(mesh), Transform(), false));
+  addEmitter(s, {{"filename", path}, {"twosided", "true"}});
 }
 
 std::unique_ptr<LightScene> mixed(const std::string& name, const Place& place) {
@@ -145,6 +175,7 @@ std::vector<std::unique_ptr<LightScene>> smallLightScenes() {
   addQuads(keep(emptyScene("one-sided")), 150, false);
   addQuads(keep(emptyScene("two-sided")), 150, true);
   addPatterns(keep(emptyScene("patterns")), 60);
+  addPicture(keep(emptyScene("picture")));
   LightScene& suns = keep(emptyScene("no positions"));
   addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 1"}});
   addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 -1"}});
