@@ -42,8 +42,9 @@ std::optional<LightSample> PatternLight::sample(uint32_t, const Vec3& from, cons
 }
 
 double PatternLight::stretch(const Vec3& w) const {
-  const auto ratio =
-      static_cast<double>(length(w)) / static_cast<double>(length(lightToWorld_.vector(w)));
+  // In double: the squares of very small or large scales are beyond float.
+  const double ratio =
+      glm::length(glm::dvec3(w)) / glm::length(glm::dvec3(lightToWorld_.vector(w)));
   return ratio * ratio * ratio;
 }
 
