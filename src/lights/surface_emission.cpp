@@ -14,7 +14,7 @@ namespace {
 /// Least mean of an element, as a share of the shape's.
 constexpr float kFloor = 0.01f;
 /// Points on a shape, shared among its elements, within these limits for each.
-constexpr size_t kPoints = size_t{1} << 18;
+constexpr double kPoints = 1 << 18;
 constexpr int kMinSide = 2, kMaxSide = 16;
 
 Rgb emittable(const Rgb& v) { return v.isFinite() ? clampPositive(v) : Rgb(); }
@@ -80,7 +80,7 @@ float SurfaceEmission::estimateMean(uint32_t element, int side) const {
 
 void SurfaceEmission::estimateMeans(float otherwise) {
   means_.resize(shape_.elementCount());
-  const double perElement = std::sqrt(static_cast<double>(kPoints / (means_.size() + 1)));
+  const double perElement = std::sqrt(kPoints / static_cast<double>(means_.size() + 1));
   const int side = std::clamp(static_cast<int>(perElement), kMinSide, kMaxSide);
   parallelFor(means_.size(), 16, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) means_[e] = estimateMean(static_cast<uint32_t>(e), side);

@@ -19,7 +19,7 @@ std::string writePattern(const std::string& name, int width, int height,
   Image image(width, height, 3);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) image.setRgb(x, y, texel(x, y));
-  const std::string path = testing::TempDir() + name;
+  std::string path = testing::TempDir() + name;
   writeImageFile(path, image);
   return path;
 }

@@ -27,7 +27,7 @@ Image dotImage(int width, int height, int x, int y) {
   return image;
 }
 std::string write(const std::string& name, const Image& image) {
-  const std::string path = testing::TempDir() + name;
+  std::string path = testing::TempDir() + name;
   writeImageFile(path, image);
   return path;
 }
