@@ -47,6 +47,10 @@ struct SurfaceInteraction {
 /// The origin of a ray that leaves `p` in direction `w`: outside of the error box, on the side of
 /// `w`. `pError` bounds the error of p, not below the rounding of p itself; `n` is the geometric
 /// normal there.
-Vec3 offsetRayOrigin(const Vec3& p, const Vec3& pError, const Vec3& n, const Vec3& w);
+inline Vec3 offsetRayOrigin(const Vec3& p, const Vec3& pError, const Vec3& n, const Vec3& w) {
+  // Twice the box: this sum rounds as well, by no more than p did, and so does the ray tracer.
+  const float d = 2 * dot(glm::abs(n), pError);
+  return p + (dot(w, n) < 0 ? -d : d) * n;
+}
 
 }  // namespace lampyris

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sampling.h"
 
-#include "core/frame.h"
-
 namespace lampyris {
 
-Vec2 sampleConcentricDisk(const Vec2& u) {
-  const Vec2 p = 2.f * u - 1.f;
-  if (p.x == 0 && p.y == 0) return Vec2(0);
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const float r = wide ? p.x : p.y;
-  const float phi = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
-  return {r * std::cos(phi), r * std::sin(phi)};
+namespace {
+
+Vec3 aboutZ(float sinTheta, float cosTheta, float turns) {
+  return {sinTheta * circlePoint(turns), cosTheta};
 }
 
-Vec3 sampleCosineHemisphere(const Vec2& u) {
-  const Vec2 d = sampleConcentricDisk(u);
-  return {d.x, d.y, std::sqrt(std::max(0.f, 1 - d.x * d.x - d.y * d.y))};
-}
+}  // namespace
 
 Vec3 sampleUniformSphere(const Vec2& u) {
   const float z = 1 - 2 * u.x;
-  return sphericalDirection(std::sqrt(std::max(0.f, 1 - z * z)), z, 2 * kPi * u.y);
+  return aboutZ(std::sqrt(std::max(0.f, 1 - z * z)), z, u.y);
 }
 
 Vec3 sampleUniformCone(const Vec2& u, float oneMinusCosMax) {
   // With h = 1 − cos θ: sin²θ = h (2 − h), which does not cancel for small h.
   const float h = u.x * oneMinusCosMax;
-  return sphericalDirection(std::sqrt(std::max(0.f, h * (2 - h))), 1 - h, 2 * kPi * u.y);
+  return aboutZ(std::sqrt(std::max(0.f, h * (2 - h))), 1 - h, u.y);
 }
 
 Vec2 sampleUniformTriangle(const Vec2& u) {

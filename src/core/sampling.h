@@ -11,10 +11,39 @@
 
 namespace lampyris {
 
+/// (cos, sin) of the angle x π / 4 for |x| <= 1, to float precision: minimax polynomials, since the
+/// library's functions spend most of their time on reducing angles of any size.
+inline Vec2 octantPoint(float x) {
+  const float t = x * x;
+  const float c =
+      1 + t * (-0.308425128f + t * (1.58543233e-2f + t * (-3.25936504e-4f + t * 3.52876155e-6f)));
+  const float s =
+      x * (0.785398185f + t * (-8.07454363e-2f + t * (2.49000103e-3f + t * -3.5950452e-5f)));
+  return {c, s};
+}
+/// The point of the unit circle at an azimuth of `turns` full turns, in [0, 1].
+inline Vec2 circlePoint(float turns) {
+  const float quarters = 4 * turns, nearest = std::floor(quarters + 0.5f);
+  const Vec2 p = octantPoint(2 * (quarters - nearest));
+  const int k = static_cast<int>(nearest);
+  const Vec2 turned = k & 1 ? Vec2(-p.y, p.x) : p;
+  return k & 2 ? -turned : turned;
+}
+
 /// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
-Vec2 sampleConcentricDisk(const Vec2& u);
+inline Vec2 sampleConcentricDisk(const Vec2& u) {
+  const Vec2 p = 2.f * u - 1.f;
+  if (p.x == 0 && p.y == 0) return Vec2(0);
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const float r = wide ? p.x : p.y;
+  const Vec2 d = r * octantPoint((wide ? p.y : p.x) / r);
+  return wide ? d : Vec2(d.y, d.x);
+}
 /// A direction of the upper hemisphere with pdf cos θ / π.
-Vec3 sampleCosineHemisphere(const Vec2& u);
+inline Vec3 sampleCosineHemisphere(const Vec2& u) {
+  const Vec2 d = sampleConcentricDisk(u);
+  return {d.x, d.y, std::sqrt(std::max(0.f, 1 - d.x * d.x - d.y * d.y))};
+}
 inline float cosineHemispherePdf(float cosTheta) { return cosTheta * kInvPi; }
 /// A direction with pdf 1 / 4π.
 Vec3 sampleUniformSphere(const Vec2& u);

@@ -58,6 +58,10 @@ void Quadric::finish(const Extent& extent) {
   area_ = static_cast<float>(objectArea_ * meanAreaScale());
   if (!(area_ >= std::numeric_limits<float>::min()) || !std::isfinite(area_)) area_ = 0;
   setBounds(extent);
+  DVec3 terms = glm::abs(translation_);
+  const DVec3 farthest = glm::max(glm::abs(extent.min), glm::abs(extent.max));
+  for (int c = 0; c < 3; ++c) terms += glm::abs(matrix_[c]) * farthest[c];
+  mapError_ = Vec3(kDoubleError * terms) + Vec3(std::numeric_limits<float>::denorm_min());
 }
 
 double Quadric::meanAreaScale() const {
@@ -105,20 +109,12 @@ Vec3 Quadric::worldNormal(const DVec3& objectNormal) const {
   return orientation_ * unit(objectNormal * toObject_);
 }
 
-Vec3 Quadric::worldError(const DVec3& object, const Vec3& world) const {
-  DVec3 terms = glm::abs(translation_);
-  for (int c = 0; c < 3; ++c) terms += glm::abs(matrix_[c] * object[c]);
-  // Half a spacing of floats is kMachineEpsilon at most.
-  return Vec3(kDoubleError * terms) + (kMachineEpsilon * 1.001f) * glm::abs(world) +
-         Vec3(std::numeric_limits<float>::denorm_min());
-}
-
 void Quadric::surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
                       SurfaceInteraction& out) const {
   (void)element;
   const Point at = evaluate(hit.uv);
   out.p = Vec3(toWorld(at.p));
-  out.pError = worldError(at.p, out.p);
+  out.pError = worldError(out.p);
   out.n = worldNormal(at.n);
   out.uv = hit.uv;
   out.time = ray.time;
@@ -147,7 +143,7 @@ ShapeSample Quadric::sampleAt(DVec2 uv) const {
   const Point at = evaluate(uv);
   ShapeSample s;
   s.p = Vec3(toWorld(at.p));
-  s.pError = worldError(at.p, s.p);
+  s.pError = worldError(s.p);
   s.n = worldNormal(at.n);
   return s;
 }
@@ -187,17 +183,6 @@ void arcBounds(double radius, double phiMax, DVec2& min, DVec2& max) {
   if (phiMax >= kTwoPi / 4) extend({0, radius});
   if (phiMax >= kTwoPi / 2) extend({-radius, 0});
   if (phiMax >= kTwoPi * 3 / 4) extend({0, -radius});
-}
-
-Roots quadraticRoots(double a, double halfB, double c, double discriminant) {
-  if (!(a > 0) || !(discriminant >= 0)) return {};
-  const double q = -(halfB + std::copysign(std::sqrt(discriminant), halfB));
-  Roots r;
-  r.count = 2;
-  r.t[0] = q / a;
-  r.t[1] = q != 0 ? c / q : 0;
-  if (r.t[0] > r.t[1]) std::swap(r.t[0], r.t[1]);
-  return r;
 }
 
 }  // namespace lampyris

@@ -65,8 +65,11 @@ class Quadric : public Shape {
   float orientation() const { return orientation_; }
   const glm::dmat3& matrix() const { return matrix_; }
 
-  /// Bounds of the rounding error of toWorld(p), once rounded to float.
-  Vec3 worldError(const DVec3& object, const Vec3& world) const;
+  /// Bounds of the rounding error of a point of the shape, toWorld(·) rounded to float.
+  Vec3 worldError(const Vec3& world) const {
+    // Half a spacing of floats is kMachineEpsilon at most.
+    return mapError_ + (kMachineEpsilon * 1.001f) * glm::abs(world);
+  }
 
  private:
   double meanAreaScale() const;
@@ -78,6 +81,7 @@ class Quadric : public Shape {
   DVec3 translation_{0};
   double determinant_ = 1, similarity_ = 0, objectArea_ = 0;
   float area_ = 0, orientation_ = 1;
+  Vec3 mapError_{0};  ///< of toWorld() in double precision, anywhere on the shape
   Bounds3 bounds_;
 };
 
@@ -93,6 +97,15 @@ struct Roots {
   int count = 0;
   double t[2] = {0, 0};
 };
-Roots quadraticRoots(double a, double halfB, double c, double discriminant);
+inline Roots quadraticRoots(double a, double halfB, double c, double discriminant) {
+  if (!(a > 0) || !(discriminant >= 0)) return {};
+  const double q = -(halfB + std::copysign(std::sqrt(discriminant), halfB));
+  Roots r;
+  r.count = 2;
+  r.t[0] = q / a;
+  r.t[1] = q != 0 ? c / q : 0;
+  if (r.t[0] > r.t[1]) std::swap(r.t[0], r.t[1]);
+  return r;
+}
 
 }  // namespace lampyris

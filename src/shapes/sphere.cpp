@@ -50,10 +50,10 @@ class Sphere final : public Quadric {
   }
   DVec2 parametersOf(const DVec3& p) const { return {azimuth(p.x, p.y) / phiMax_, vOf(p.z)}; }
   std::optional<DVec2> accept(const DVec3& p) const;
-  /// 1 − cos of the cone's half-angle as seen from `from`; none where the sphere is not sampled by
+  /// The cone's half-angle as seen from `from`; none where the sphere is not sampled by
   /// its cone: partial, under a map that makes it no sphere, or from inside.
   struct Cone {
-    double oneMinusCos, sin2, distance;
+    double oneMinusCos, sin, distance;
     DVec3 axis;
   };
   std::optional<Cone> coneFrom(const Vec3& from) const;
@@ -61,7 +61,9 @@ class Sphere final : public Quadric {
   double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
   bool full_;
   DVec3 worldCentre_;
-  double worldRadius_;  ///< if the map keeps it a sphere
+  double worldRadius_;  ///< if the map keeps it a sphere: the rest as well
+  double reach_;        ///< no point of it is farther from the origin
+  glm::dmat3 onto_{1};  ///< by what the map is off from a similarity, M Mᵀ / s²
 };
 
 Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
@@ -73,6 +75,8 @@ Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
   thetaMax_ = radius_ > 0 ? std::acos(std::clamp(zMax_ / radius_, -1., 1.)) : 0;
   worldCentre_ = toWorld(DVec3(0));
   worldRadius_ = radius_ * similarity();
+  reach_ = glm::length(worldCentre_) + 2 * worldRadius_;
+  if (similarity() > 0) onto_ = matrix() * glm::transpose(matrix()) / sqr(similarity());
   full_ = zMin_ == -radius_ && zMax_ == radius_ && p.phiMax >= 360;
 
   Extent extent;
@@ -141,8 +145,9 @@ std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
   const DVec3 toCentre = worldCentre_ - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
   if (!(d2 > r * r) || !std::isfinite(d2)) return std::nullopt;
-  const double sin2 = r * r / d2, d = std::sqrt(d2);
-  return Cone{sin2 / (1 + std::sqrt(1 - sin2)), sin2, d, toCentre / d};
+  const double d = std::sqrt(d2), inverse = 1 / d;
+  const double sin = r * inverse, sin2 = sin * sin;
+  return Cone{sin2 / (1 + safeSqrt(1 - sin2)), sin, d, toCentre * inverse};
 }
 
 std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3& from,
@@ -154,21 +159,20 @@ std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3
 
   // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
   // centre: α = asin(sin θ / sin θmax) − θ.
-  const double h = static_cast<double>(u.x) * cone->oneMinusCos;
-  const double sin2Theta = h * (2 - h);
-  const double ratio2 = std::min(1., sin2Theta / cone->sin2), rest = std::sqrt(1 - ratio2);
-  const double cosAlpha = std::sqrt(ratio2 * sin2Theta) + (1 - h) * rest;
-  const double sinAlpha = std::sqrt(ratio2) * (1 - h) - std::sqrt(sin2Theta) * rest;
-  const float phi = 2 * kPi * u.y;
-  const Frame frame = Frame::fromZ(Vec3(-cone->axis));
+  const double h = static_cast<double>(u.x) * cone->oneMinusCos, cosTheta = 1 - h;
+  const double sinTheta = std::sqrt(h * (2 - h));
+  const double ratio = std::min(1., sinTheta / cone->sin), rest = std::sqrt(1 - ratio * ratio);
+  const double cosAlpha = ratio * sinTheta + cosTheta * rest;
+  const double sinAlpha = ratio * cosTheta - sinTheta * rest;
   // Azimuth and frame are good to float precision, which turns the draw as a whole by that much.
-  const DVec3 across(std::cos(phi) * frame.x + std::sin(phi) * frame.y);
-  const DVec3 n = sinAlpha * across - cosAlpha * cone->axis;
+  const Vec2 around = circlePoint(u.y);
+  const Frame frame = Frame::fromZ(Vec3(-cone->axis));
+  const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * cone->axis;
   ShapeSample s;
-  // Through the map itself, which may be off from a similarity by its rounding.
-  const DVec3 object = radius_ * glm::normalize(glm::transpose(matrix()) * n);
-  s.p = Vec3(toWorld(object));
-  s.pError = worldError(object, s.p);
+  // The map may be off from a similarity by its rounding: M Mᵀn / |Mᵀn| is on the surface exactly.
+  const DVec3 mapped = onto_ * n;
+  s.p = Vec3(worldCentre_ + worldRadius_ / std::sqrt(glm::dot(n, mapped)) * mapped);
+  s.pError = worldError(s.p);
   s.n = orientation() * Vec3(n);
   s.pdf = pdf;
   return s;
@@ -180,8 +184,7 @@ float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
   if (!cone) return Shape::pdfSolidAngle(element, from, p, n);
   // The far side is never drawn. On the silhouette rounding of p decides nothing.
   const DVec3 fromCentre = DVec3(p) - worldCentre_, back = DVec3(from) - DVec3(p);
-  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) *
-                           (glm::length(DVec3(p)) + glm::length(fromCentre)) * cone->distance;
+  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) * reach_ * cone->distance;
   if (glm::dot(fromCentre, back) < -tolerance) return 0;
   const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
   return std::isfinite(pdf) && area(element) > 0 ? pdf : 0;

@@ -12,22 +12,12 @@ namespace {
 
 using DVec3 = glm::dvec3;
 
-/// Twice the area along the normal of (p0, p1, p2). In double: slivers keep their direction.
-DVec3 areaNormal(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
-  return glm::cross(DVec3(p1) - DVec3(p0), DVec3(p2) - DVec3(p0));
-}
-
 Vec3 unit(const DVec3& v) {
   const double square = glm::dot(v, v);
   return square > 0 ? Vec3(v * (1 / std::sqrt(square))) : Vec3(0);
 }
 
 Vec3 finiteOrZero(const Vec3& v) { return isFinite(v) ? v : Vec3(0); }
-
-/// Σ of the absolute terms of a barycentric sum: what its rounding error scales with.
-Vec3 positionError(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& b) {
-  return roundingBound(7) * (glm::abs(b.x * p0) + glm::abs(b.y * p1) + glm::abs(b.z * p2));
-}
 
 /// Inverts [uv0 − uv2, uv1 − uv2]: the derivatives by u and v of what has the differences d02, d12.
 struct UvSolver {
@@ -38,7 +28,7 @@ struct UvSolver {
     // Relative to its terms: below this the differences of the floats say nothing of it.
     degenerate = !(std::abs(determinant) > 1e-7 * (std::abs(a.x * b.y) + std::abs(a.y * b.x)));
     if (degenerate) return;
-    const double inverse = 1 / determinant;
+    inverse = 1 / determinant;
     u = glm::dvec2(b.y, -a.y) * inverse;
     v = glm::dvec2(-b.x, a.x) * inverse;
   }
@@ -50,6 +40,7 @@ struct UvSolver {
   }
 
   bool degenerate;
+  double inverse = 0;  ///< of the determinant
   glm::dvec2 u{0}, v{0};
 };
 
@@ -58,6 +49,14 @@ struct UvSolver {
 struct TriangleMesh::Corners {
   std::array<uint32_t, 3> index;
   Vec3 p0, p1, p2;
+
+  /// Twice the area along the normal. In double: slivers keep their direction.
+  DVec3 areaNormal() const { return glm::cross(DVec3(p1) - DVec3(p0), DVec3(p2) - DVec3(p0)); }
+  Vec3 point(const Vec3& b) const { return b.x * p0 + b.y * p1 + b.z * p2; }
+  /// Σ of the absolute terms of that sum: what its rounding error scales with.
+  Vec3 pointError(const Vec3& b) const {
+    return roundingBound(7) * (glm::abs(b.x * p0) + glm::abs(b.y * p1) + glm::abs(b.z * p2));
+  }
 };
 
 TriangleMesh::TriangleMesh(TriangleMeshData data, const Transform& objectToWorld,
@@ -101,7 +100,7 @@ std::optional<ShapeHit> TriangleMesh::intersect(uint32_t element, const Ray& ray
   const double w2 = glm::dot(d, glm::cross(b, a));
   if ((w0 < 0 || w1 < 0 || w2 < 0) && (w0 > 0 || w1 > 0 || w2 > 0)) return std::nullopt;
   const double sum = w0 + w1 + w2;
-  const DVec3 n = areaNormal(c.p0, c.p1, c.p2);
+  const DVec3 n = c.areaNormal();
   const double cosine = glm::dot(n, d);
   if (sum == 0 || cosine == 0) return std::nullopt;
   const float t = static_cast<float>(glm::dot(n, a) / cosine);
@@ -109,80 +108,81 @@ std::optional<ShapeHit> TriangleMesh::intersect(uint32_t element, const Ray& ray
   return ShapeHit{t, {static_cast<float>(w1 / sum), static_cast<float>(w2 / sum)}};
 }
 
+/// Zero without vertex normals.
 Vec3 TriangleMesh::interpolatedNormal(const Corners& c, const Vec3& b) const {
+  if (data_.normals.empty()) return Vec3(0);
   const Vec3 n = b.x * data_.normals[c.index[0]] + b.y * data_.normals[c.index[1]] +
                  b.z * data_.normals[c.index[2]];
   return reverse_ ? -n : n;
 }
 
 /// Vertex normals decide the side, else the order of the vertices; zero for a degenerate triangle.
-Vec3 TriangleMesh::orientedNormal(const Corners& c, const Vec3& b) const {
-  const Vec3 n = unit(areaNormal(c.p0, c.p1, c.p2));
-  if (!data_.normals.empty()) {
-    const Vec3 ns = interpolatedNormal(c, b);
-    if (ns != Vec3(0)) return faceForward(n, ns);
-  }
+Vec3 TriangleMesh::orientedNormal(const DVec3& areaNormal, const Vec3& vertexNormal) const {
+  const Vec3 n = unit(areaNormal);
+  if (vertexNormal != Vec3(0)) return faceForward(n, vertexNormal);
   return flip_ ? -n : n;
 }
 
-/// Sets dpdu and dpdv; false if uv does not parameterise the triangle.
-bool TriangleMesh::setTangents(const Corners& c, const std::array<Vec2, 3>& uv,
-                               SurfaceInteraction& out) const {
-  if (data_.uvs.empty()) {  // the solution for the uv that stand in
+/// Sets uv, dpdu and dpdv; false if uv does not parameterise the triangle.
+bool TriangleMesh::setParameters(const Corners& c, const Vec3& b, const DVec3& areaNormal,
+                                 SurfaceInteraction& out) const {
+  double across = glm::dot(areaNormal, areaNormal);  // |dpdu × dpdv|²
+  if (data_.uvs.empty()) {                           // the solution for the uv that stand in
+    out.uv = Vec2(b.y + b.z, b.z);
     out.dpdu = c.p1 - c.p0;
     out.dpdv = c.p2 - c.p1;
-    return true;
+  } else {
+    const auto uv = uvs(c);
+    out.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
+    const UvSolver solver(uv);
+    if (solver.degenerate) return false;
+    out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
+    out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
+    across *= sqr(solver.inverse);
   }
-  const UvSolver solver(uv);
-  if (solver.degenerate) return false;
-  out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
-  out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
-  return true;
+  // The sine of their angle against what rounding makes of it; false for what is not finite, too.
+  const DVec3 du(out.dpdu), dv(out.dpdv);
+  constexpr double kLeastSine2 = sqr(static_cast<double>(roundingBound(8)));
+  return across > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv));
 }
 
 void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray,
                            SurfaceDetail detail, SurfaceInteraction& out) const {
   const Corners c = corners(element);
   const Vec3 b(1 - hit.uv.x - hit.uv.y, hit.uv.x, hit.uv.y);
-  out.p = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
-  out.pError = positionError(c.p0, c.p1, c.p2, b);
+  out.p = c.point(b);
+  out.pError = c.pointError(b);
   out.time = ray.time;
   out.dndu = out.dndv = out.shading.dndu = out.shading.dndv = Vec3(0);
-  const auto uv = uvs(c);
-  out.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
 
-  out.n = orientedNormal(c, b);
+  const DVec3 areaNormal = c.areaNormal();
+  const Vec3 vertexNormal = interpolatedNormal(c, b);
+  out.n = orientedNormal(areaNormal, vertexNormal);
   // A ray tracer may report the edge of a triangle without area; it has no normal of its own.
   if (out.n == Vec3(0)) out.n = normalize(-ray.d);
-  const bool parameterised = setTangents(c, uv, out);
-  // The sine of their angle against what rounding makes of it; false for what is not finite, too.
-  const DVec3 du(out.dpdu), dv(out.dpdv), across = glm::cross(du, dv);
-  constexpr double kLeastSine2 = sqr(static_cast<double>(roundingBound(8)));
-  if (!parameterised ||
-      !(glm::dot(across, across) > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv))))
-    completeBasis(out.n, out.dpdu, out.dpdv);
+  if (!setParameters(c, b, areaNormal, out)) completeBasis(out.n, out.dpdu, out.dpdv);
   out.shading.n = out.n;
   out.shading.dpdu = out.dpdu;
   out.shading.dpdv = out.dpdv;
 
-  if (!data_.normals.empty() || !data_.tangents.empty()) setShadingFrame(c, b, out);
-  if (detail == SurfaceDetail::Full && !data_.normals.empty()) setNormalDerivatives(c, b, uv, out);
+  if (!data_.normals.empty() || !data_.tangents.empty()) setShadingFrame(c, b, vertexNormal, out);
+  if (detail == SurfaceDetail::Full && !data_.normals.empty())
+    setNormalDerivatives(c, vertexNormal, out);
 }
 
 /// Shading normal and tangents of unit length, made orthogonal, such that cross(dpdu, dpdv) is the
 /// shading normal. As in pbrt-v3 both tangents point against the parameterisation, which decides
 /// the side to which bump maps bulge.
-void TriangleMesh::setShadingFrame(const Corners& c, const Vec3& b, SurfaceInteraction& out) const {
-  if (!data_.normals.empty()) {
-    const Vec3 ns = normalize(interpolatedNormal(c, b));
-    if (ns != Vec3(0)) out.shading.n = ns;
-  }
+void TriangleMesh::setShadingFrame(const Corners& c, const Vec3& b, const Vec3& vertexNormal,
+                                   SurfaceInteraction& out) const {
+  const Vec3 unitNormal = normalize(vertexNormal);
+  if (unitNormal != Vec3(0)) out.shading.n = unitNormal;
   Vec3 ss(0);
   if (!data_.tangents.empty()) {
     ss = normalize(b.x * data_.tangents[c.index[0]] + b.y * data_.tangents[c.index[1]] +
                    b.z * data_.tangents[c.index[2]]);
   }
-  if (ss == Vec3(0)) ss = normalize(out.dpdu);
+  if (ss == Vec3(0)) ss = out.dpdu;
   const Vec3 ns = out.shading.n;
   const Vec3 ts = normalize(cross(ss, ns));
   if (ts == Vec3(0)) {
@@ -193,10 +193,9 @@ void TriangleMesh::setShadingFrame(const Corners& c, const Vec3& b, SurfaceInter
   }
 }
 
-void TriangleMesh::setNormalDerivatives(const Corners& c, const Vec3& b,
-                                        const std::array<Vec2, 3>& uv,
+void TriangleMesh::setNormalDerivatives(const Corners& c, const Vec3& vertexNormal,
                                         SurfaceInteraction& out) const {
-  UvSolver solver(uv);
+  UvSolver solver(uvs(c));
   // Without a parameterisation: by the arbitrary frame that stands in for it.
   if (solver.degenerate) {
     solver = UvSolver({Vec2(dot(c.p0 - c.p2, out.dpdu), dot(c.p0 - c.p2, out.dpdv)),
@@ -205,8 +204,7 @@ void TriangleMesh::setNormalDerivatives(const Corners& c, const Vec3& b,
   const Vec3 d02 = data_.normals[c.index[0]] - data_.normals[c.index[2]];
   const Vec3 d12 = data_.normals[c.index[1]] - data_.normals[c.index[2]];
   // The derivative of N / |N|.
-  const Vec3 n = interpolatedNormal(c, b);
-  const float scale = (reverse_ ? -1.f : 1.f) / length(n);
+  const float scale = (reverse_ ? -1.f : 1.f) / length(vertexNormal);
   const auto project = [&](const Vec3& v) {
     return scale * (v - dot(out.shading.n, v) * out.shading.n);
   };
@@ -218,7 +216,7 @@ void TriangleMesh::setNormalDerivatives(const Corners& c, const Vec3& b,
 
 float TriangleMesh::area(uint32_t element) const {
   const Corners c = corners(element);
-  const auto a = static_cast<float>(0.5 * glm::length(areaNormal(c.p0, c.p1, c.p2)));
+  const auto a = static_cast<float>(0.5 * glm::length(c.areaNormal()));
   // 1 / area is a density: it has to be finite.
   return a >= std::numeric_limits<float>::min() && std::isfinite(a) ? a : 0.f;
 }
@@ -230,9 +228,9 @@ std::optional<ShapeSample> TriangleMesh::sampleArea(uint32_t element, const Vec2
   const Vec2 b01 = sampleUniformTriangle(u);
   const Vec3 b(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
   ShapeSample s;
-  s.p = b.x * c.p0 + b.y * c.p1 + b.z * c.p2;
-  s.pError = positionError(c.p0, c.p1, c.p2, b);
-  s.n = orientedNormal(c, b);
+  s.p = c.point(b);
+  s.pError = c.pointError(b);
+  s.n = orientedNormal(c.areaNormal(), interpolatedNormal(c, b));
   s.pdf = 1 / a;
   return s;
 }
@@ -251,7 +249,7 @@ std::optional<ShapeHit> TriangleMesh::locate(uint32_t element, const Vec3& p, co
 
 Shape::NormalCone TriangleMesh::normalCone(uint32_t element) const {
   const Corners c = corners(element);
-  const Vec3 n = unit(areaNormal(c.p0, c.p1, c.p2));
+  const Vec3 n = unit(c.areaNormal());
   if (n == Vec3(0)) return {};
   if (data_.normals.empty()) return {flip_ ? -n : n, 1};
   const float d0 = dot(n, interpolatedNormal(c, {1, 0, 0}));

@@ -51,10 +51,12 @@ class TriangleMesh final : public Shape {
   Corners corners(uint32_t element) const;
   std::array<Vec2, 3> uvs(const Corners& c) const;
   Vec3 interpolatedNormal(const Corners& c, const Vec3& b) const;
-  Vec3 orientedNormal(const Corners& c, const Vec3& b) const;
-  bool setTangents(const Corners& c, const std::array<Vec2, 3>& uv, SurfaceInteraction& out) const;
-  void setShadingFrame(const Corners& c, const Vec3& b, SurfaceInteraction& out) const;
-  void setNormalDerivatives(const Corners& c, const Vec3& b, const std::array<Vec2, 3>& uv,
+  Vec3 orientedNormal(const glm::dvec3& areaNormal, const Vec3& vertexNormal) const;
+  bool setParameters(const Corners& c, const Vec3& b, const glm::dvec3& areaNormal,
+                     SurfaceInteraction& out) const;
+  void setShadingFrame(const Corners& c, const Vec3& b, const Vec3& vertexNormal,
+                       SurfaceInteraction& out) const;
+  void setNormalDerivatives(const Corners& c, const Vec3& vertexNormal,
                             SurfaceInteraction& out) const;
 
   TriangleMeshData data_;
