@@ -5,6 +5,7 @@
 
 #include "core/frame.h"
 #include "core/sampling.h"
+#include "shapes/spherical_triangle.h"
 
 namespace lampyris {
 
@@ -14,8 +15,14 @@ using DVec3 = glm::dvec3;
 
 Vec3 unit(const DVec3& v) {
   const double square = glm::dot(v, v);
+  // Far faster in single precision, where that has the range.
+  if (square > 1e-30 && square < 1e30) return Vec3(v) * (1 / std::sqrt(static_cast<float>(square)));
   return square > 0 ? Vec3(v * (1 / std::sqrt(square))) : Vec3(0);
 }
+
+/// Triangles whose two edges, squared and added, are less than this part of the squared distance of
+/// their centroid are sampled by area: see docs/shape-sampling.md.
+constexpr double kWide = 0.1;
 
 Vec3 finiteOrZero(const Vec3& v) { return isFinite(v) ? v : Vec3(0); }
 
@@ -57,6 +64,33 @@ struct TriangleMesh::Corners {
   Vec3 pointError(const Vec3& b) const {
     return roundingBound(7) * (glm::abs(b.x * p0) + glm::abs(b.y * p1) + glm::abs(b.z * p2));
   }
+};
+
+/// A triangle in relation to a point from which it is sampled.
+struct TriangleMesh::View {
+  View(const Corners& c, const Vec3& from)
+      : a(DVec3(c.p0) - DVec3(from)),
+        e1(DVec3(c.p1) - DVec3(c.p0)),
+        e2(DVec3(c.p2) - DVec3(c.p0)),
+        areaNormal(glm::cross(e1, e2)),
+        volume(std::abs(glm::dot(areaNormal, a))) {}
+
+  /// Whether the edges from a corner are long against the distance of the centroid. Sampling and
+  /// density both ask this.
+  bool isWide() const {
+    const DVec3 centre = 3. * a + e1 + e2;
+    return 9 * (glm::dot(e1, e1) + glm::dot(e2, e2)) > kWide * glm::dot(centre, centre);
+  }
+  SphericalTriangle spherical() const { return {a, a + e1, a + e2, volume}; }
+  /// By solid angle at distance `d`, of points that are uniform by area: d² / (cos θ · area). The
+  /// distance from the plane stands for d cos θ, where rounding of the point would decide.
+  float uniformPdf(float d) const {
+    const double distance = d;
+    return static_cast<float>(2 * distance * distance * distance / volume);
+  }
+
+  DVec3 a, e1, e2, areaNormal;
+  double volume;
 };
 
 TriangleMesh::TriangleMesh(TriangleMeshData data, const Transform& objectToWorld,
@@ -109,7 +143,7 @@ std::optional<ShapeHit> TriangleMesh::intersect(uint32_t element, const Ray& ray
 }
 
 /// Zero without vertex normals.
-Vec3 TriangleMesh::interpolatedNormal(const Corners& c, const Vec3& b) const {
+inline Vec3 TriangleMesh::interpolatedNormal(const Corners& c, const Vec3& b) const {
   if (data_.normals.empty()) return Vec3(0);
   const Vec3 n = b.x * data_.normals[c.index[0]] + b.y * data_.normals[c.index[1]] +
                  b.z * data_.normals[c.index[2]];
@@ -117,7 +151,7 @@ Vec3 TriangleMesh::interpolatedNormal(const Corners& c, const Vec3& b) const {
 }
 
 /// Vertex normals decide the side, else the order of the vertices; zero for a degenerate triangle.
-Vec3 TriangleMesh::orientedNormal(const DVec3& areaNormal, const Vec3& vertexNormal) const {
+inline Vec3 TriangleMesh::orientedNormal(const DVec3& areaNormal, const Vec3& vertexNormal) const {
   const Vec3 n = unit(areaNormal);
   if (vertexNormal != Vec3(0)) return faceForward(n, vertexNormal);
   return flip_ ? -n : n;
@@ -245,6 +279,38 @@ std::optional<ShapeHit> TriangleMesh::locate(uint32_t element, const Vec3& p, co
   const double b1 = std::clamp(glm::dot(glm::cross(d, e2), n) / square, 0., 1.);
   const double b2 = std::clamp(glm::dot(glm::cross(e1, d), n) / square, 0., 1. - b1);
   return ShapeHit{0, {static_cast<float>(b1), static_cast<float>(b2)}};
+}
+
+std::optional<ShapeSample> TriangleMesh::sampleSolidAngle(uint32_t element, const Vec3& from,
+                                                          const Vec2& u) const {
+  const Corners c = corners(element);
+  const View view(c, from);
+  ShapeSample s;
+  Vec3 b;
+  if (view.isWide()) {
+    const SphericalTriangle seen = view.spherical();
+    s.pdf = 1 / seen.solidAngle();
+    if (!std::isfinite(s.pdf)) return std::nullopt;
+    b = seen.sample(u);
+    s.p = c.point(b);
+  } else {
+    const Vec2 b01 = sampleUniformTriangle(u);
+    b = Vec3(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
+    s.p = c.point(b);
+    s.pdf = view.uniformPdf(distance(s.p, from));
+    if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return std::nullopt;
+  }
+  s.pError = c.pointError(b);
+  s.n = orientedNormal(view.areaNormal, interpolatedNormal(c, b));
+  return s;
+}
+
+float TriangleMesh::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
+                                  const Vec3&) const {
+  const View view(corners(element), from);
+  const float pdf =
+      view.isWide() ? 1 / view.spherical().solidAngle() : view.uniformPdf(distance(p, from));
+  return std::isfinite(pdf) ? pdf : 0;
 }
 
 Shape::NormalCone TriangleMesh::normalCone(uint32_t element) const {

@@ -40,6 +40,12 @@ class TriangleMesh final : public Shape {
   float area(uint32_t element) const override;
   std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const override;
   std::optional<ShapeHit> locate(uint32_t element, const Vec3& p, const Vec3& n) const override;
+  /// Uniform by solid angle where the triangle is large against its distance from `from`, else by
+  /// area; which of the two is a function of `from` and the triangle alone.
+  std::optional<ShapeSample> sampleSolidAngle(uint32_t element, const Vec3& from,
+                                              const Vec2& u) const override;
+  float pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
+                      const Vec3& n) const override;
   NormalCone normalCone(uint32_t element) const override;
 
   const TriangleMeshData& data() const { return data_; }  ///< positions: with the padding element
@@ -47,6 +53,7 @@ class TriangleMesh final : public Shape {
 
  private:
   struct Corners;
+  struct View;
   size_t triangleCount() const { return data_.indices.size() / 3; }
   Corners corners(uint32_t element) const;
   std::array<Vec2, 3> uvs(const Corners& c) const;

@@ -204,6 +204,25 @@ TEST(QuadricSampling, InsideASphereItIsSampledByArea) {
   }
 }
 
+TEST(QuadricSampling, AboveASphereTheConeIsStable) {
+  for (const float scale : {1e-4f, 1.f, 1e4f}) {
+    const auto sphere = makeShape("sphere", Parameters().floats("radius", {scale}),
+                                  Transform::translate(scale * Vec3(3, -2, 1)));
+    for (const float above : {1e-6f, 1e-4f, 1e-2f}) {
+      const Vec3 up = normalize(Vec3(1, 2, -0.5f));
+      const Vec3 centre = scale * Vec3(3, -2, 1), from = centre + scale * (1 + above) * up;
+      for (uint64_t i = 0; i < 500; ++i) {
+        const auto s = sphere->sampleSolidAngle(0, from, {uniform(12, i, 0), uniform(12, i, 1)});
+        ASSERT_TRUE(s);
+        EXPECT_FLOAT_EQ(s->pdf, sphere->pdfSolidAngle(0, from, s->p, s->n));
+        EXPECT_NEAR(distance(s->p, centre) / scale, 1, 1e-6f);
+        // On the cap that is seen, but for the rounding of `from`.
+        EXPECT_GT(dot(s->n, from - s->p), -4e-6f * scale);
+      }
+    }
+  }
+}
+
 TEST(QuadricSampling, DisksHaveOneNormal) {
   const auto disk = makeShape("disk", {}, Transform::scale({1, 1, -1}), true);
   EXPECT_EQ(disk->normalCone(0).cosTheta, 1);
