@@ -18,6 +18,24 @@
 
 namespace lampyris {
 
+namespace {
+
+/// The angle of the point (cosine, sine) for sine > 0, in [0, π], to float precision.
+float upperAngle(float sine, float cosine) {
+  const float across = std::abs(cosine);
+  const bool steep = sine > across;
+  const float r = steep ? across / sine : sine / across, t = r * r, t2 = t * t, t4 = t2 * t2;
+  // atan(r) / r on [0, 1], minimax.
+  const float low = (1 - 0.333330721f * t) + t2 * (0.199926198f - 0.142036453f * t);
+  const float high =
+      (0.106409349f - 7.50429556e-2f * t) + t2 * (4.26915251e-2f - 1.60686296e-2f * t);
+  const float angle = r * (low + t4 * (high + t4 * 2.84988945e-3f));
+  const float folded = steep ? kPi / 2 - angle : angle;
+  return cosine < 0 ? kPi - folded : folded;
+}
+
+}  // namespace
+
 SphericalTriangle::SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                                      double volume)
     : a_(std::sqrt(glm::dot(a, a))),
@@ -30,8 +48,9 @@ SphericalTriangle::SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, c
   if (!(volume > 0)) return;
   // Scaled by the lengths, for the range of floats.
   const double lengths = a_ * b_ * c_, scale = 1 / lengths;
-  solidAngle_ = 2 * std::atan2(static_cast<float>(volume * scale),
-                               static_cast<float>(1 + (ab_ * c_ + bc_ * a_ + ca_ * b_) * scale));
+  const auto sine = static_cast<float>(volume * scale);
+  const auto cosine = static_cast<float>(1 + (ab_ * c_ + bc_ * a_ + ca_ * b_) * scale);
+  if (sine > 0) solidAngle_ = 2 * upperAngle(sine, cosine);
 }
 
 Vec3 SphericalTriangle::sample(const Vec2& u) const {
