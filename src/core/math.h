@@ -29,7 +29,6 @@ constexpr float sqr(float x) { return x * x; }
 constexpr double sqr(double x) { return x * x; }
 constexpr float lerp(float t, float a, float b) { return (1 - t) * a + t * b; }
 constexpr float radians(float degrees) { return degrees * (kPi / 180); }
-constexpr float degrees(float radians) { return radians * (180 / kPi); }
 
 /// √x for an x that is ≥ 0 but for rounding: below zero (to −1e-3 in relation to 1) counts as 0.
 inline float safeSqrt(float x) {

@@ -53,7 +53,7 @@ Distribution1D::Sample Distribution1D::sample(float u) const {
   // Rounding may carry x over the border to a cell of another density.
   while (cellOf(x) > cell) x = nextFloatDown(x);
   while (cellOf(x) < cell) x = nextFloatUp(x);
-  return {x, density(cell), cell, within};
+  return {x, density(cell), cell};
 }
 
 Distribution2D::Distribution2D(std::span<const float> values, int width, int height) {

@@ -75,10 +75,9 @@ class Distribution1D {
   explicit Distribution1D(std::span<const float> values);
 
   struct Sample {
-    float x;         ///< in [0, 1)
-    float pdf;       ///< density at x
-    size_t cell;     ///< index of x's cell
-    float remapped;  ///< a fresh uniform variate in [0, 1): where in the cell x lies
+    float x;      ///< in [0, 1)
+    float pdf;    ///< density at x
+    size_t cell;  ///< index of x's cell
   };
   size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
   /// Mean of the values.

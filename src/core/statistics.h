@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a run reports: counters and named figures.
+/// What a run reports: named figures.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
 
 namespace lampyris {
-
-/// A counter that many threads may add to; reading sums it up. Hot code counts in a local variable
-/// and adds once per tile.
-class Counter {
- public:
-  void add(uint64_t n) { value_.fetch_add(n, std::memory_order_relaxed); }
-  uint64_t value() const { return value_.load(std::memory_order_relaxed); }
-
- private:
-  std::atomic<uint64_t> value_{0};
-};
 
 /// Named figures of a run, in the order of their first mention, by section, e.g.
 /// ("light tree", "nodes", 1023). Thread-safe.

@@ -57,19 +57,6 @@ Transform Transform::lookAt(const Vec3& eye, const Vec3& target, const Vec3& up)
   return Transform(cameraToWorld).inverse();
 }
 
-Transform Transform::perspective(float fovDegrees, float near, float far) {
-  glm::mat4 m(0);
-  m[0][0] = m[1][1] = 1 / std::tan(radians(fovDegrees) / 2);
-  m[2][2] = far / (far - near);
-  m[3][2] = -far * near / (far - near);
-  m[2][3] = 1;
-  return Transform(m);
-}
-
-Transform Transform::orthographic(float near, float far) {
-  return scale({1, 1, 1 / (far - near)}) * translate({0, 0, -near});
-}
-
 bool Transform::isSingular() const { return inverse_ == glm::mat4(0) || matrix_ == glm::mat4(0); }
 
 bool Transform::swapsHandedness() const {

@@ -26,9 +26,6 @@ class Transform {
   /// World to camera: the camera at `eye`, looking along +z at `target`, +y towards `up`
   /// (pbrt-v3, left-handed). Singular if the directions are parallel or `eye` is `target`.
   static Transform lookAt(const Vec3& eye, const Vec3& target, const Vec3& up);
-  /// Camera to screen: z in [near, far] to [0, 1], the field of view to [−1, 1].
-  static Transform perspective(float fovDegrees, float near, float far);
-  static Transform orthographic(float near, float far);
 
   const glm::mat4& matrix() const { return matrix_; }
   const glm::mat4& inverseMatrix() const { return inverse_; }

@@ -20,7 +20,6 @@ inline float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 inline float distance(const Vec3& a, const Vec3& b) { return length(a - b); }
 inline float absDot(const Vec3& a, const Vec3& b) { return std::abs(dot(a, b)); }
 inline float maxComponent(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
-inline float minComponent(const Vec3& v) { return std::min(v.x, std::min(v.y, v.z)); }
 inline bool isFinite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -105,11 +105,5 @@ TEST(Statistics, KeepsOrderAndSums) {
   EXPECT_EQ(s.value("a", "text"), 7);
 }
 
-TEST(Counter, CountsOverThreads) {
-  Counter c;
-  parallelFor(10'000, 1, [&](size_t begin, size_t end) { c.add(end - begin); });
-  EXPECT_EQ(c.value(), 10'000u);
-}
-
 }  // namespace
 }  // namespace lampyris
