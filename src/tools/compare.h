@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/image.h"
+#include "tools/mean_ratio.h"
 
 namespace lampyris {
 
@@ -26,6 +27,10 @@ struct Comparison {
   std::optional<double> relMse;
   /// The same without the 0.1 % of the pixels that have the largest terms (fireflies).
   std::optional<double> trimmedRelMse;
+  /// Mean of 2 (a − b)² / (a² + b² + 2 ε): equal to relMse for small errors, while no pixel,
+  /// however wrong, adds more than 2.
+  std::optional<double> robustRelMse;
+  MeanRatios meanRatios;  ///< by channel, with confidence intervals
 };
 
 /// Images of different sizes give an `error`.
@@ -33,14 +38,7 @@ Comparison compareImages(const Image& image, const Image& reference);
 
 /// A table for people, one figure a line; the error if there is one.
 std::string formatComparison(const Comparison& comparison);
-
-/// The relative error per pixel, √ of the mean of relMSE's terms over the channels, in false colour
-/// (linear RGB): from 0.001 and less (black) over violet, red and orange to 1 and more (white), the
-/// lightness linear in the error's logarithm. Pixels that are not finite are green. Where the
-/// reference is black, any error is white. Throws std::invalid_argument if the sizes differ.
-Image errorImage(const Image& image, const Image& reference);
-
-/// The colour of `t` in [0, 1] in the map above, linear RGB.
-Rgb errorColour(float t);
+/// The same for programs: a JSON object; figures that are undefined are null.
+std::string comparisonJson(const Comparison& comparison);
 
 }  // namespace lampyris

@@ -8,10 +8,21 @@
 #include "core/image.h"
 #include "tools/commands.h"
 #include "tools/compare.h"
+#include "tools/error_image.h"
 
 namespace lampyris {
 
 namespace {
+
+constexpr const char* kCompareFooter = R"(
+With a an image's value and b the reference's, over all pixels and the channels of linear RGB,
+and e = (0.01 mean of b)^2:
+  relMSE            mean of (a - b)^2 / (b^2 + e)
+  relMSE, robust    mean of 2 (a - b)^2 / (a^2 + b^2 + 2 e): no pixel counts more than 2
+  relMSE, trimmed   relMSE without the 0.1 % of the pixels with the largest terms
+  mean ratio        mean of a / mean of b; by channel with its 95 % confidence interval, from
+                    the spread over 16 x 16 blocks
+The error image shows the relative error from 0.001 (black) to 1 and more (white).)";
 
 void expectWritable(const std::string& path) {
   if (!isWritableImagePath(path))
@@ -23,17 +34,20 @@ void expectWritable(const std::string& path) {
 
 int runCompare(const Arguments& arguments) {
   std::string a, b, out;
+  bool json = false;
   CLI::App app("How far image A is from the reference B.", "lampyris compare");
   app.add_option("A", a, "Image")->required();
   app.add_option("B", b, "Reference")->required();
-  app.add_option("-o,--out", out, "Image of the error to write");
+  app.footer(kCompareFooter);
+  app.add_option("-o,--out,--error-image", out, "Image of the error to write, in false colour");
+  app.add_flag("--json", json, "Print JSON instead of a table");
   if (const auto code = parseArguments(app, arguments)) return *code;
   if (!out.empty()) expectWritable(out);
   const Image image = readLinearImage(a), reference = readLinearImage(b);
   const Comparison comparison = compareImages(image, reference);
   if (!comparison.error.empty())
     throw IoError(fmt::format("cannot compare \"{}\" with \"{}\": {}", a, b, comparison.error));
-  fmt::print("{}", formatComparison(comparison));
+  fmt::print("{}", json ? comparisonJson(comparison) : formatComparison(comparison));
   if (!out.empty()) writeImageFile(out, errorImage(image, reference));
   return kDone;
 }

@@ -5,7 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "support/statistics.h"
+#include "tools/error_image.h"
 
 namespace lampyris {
 namespace {
@@ -67,6 +71,75 @@ TEST(Compare, TrimmingRemovesFireflies) {
   const Comparison c = compareImages(a, b);
   EXPECT_GT(*c.relMse, 1e4);
   EXPECT_NEAR(*c.trimmedRelMse, 0.01, 1e-4);
+}
+
+TEST(Compare, RobustErrorIsBounded) {
+  const Image b = filled(10, 10, Rgb(1));
+  Image a = filled(10, 10, Rgb(1.01f));
+  EXPECT_NEAR(*compareImages(a, b).robustRelMse, 1e-4, 2e-6);
+  EXPECT_NEAR(*compareImages(a, b).relMse, 1e-4, 1e-6);
+  a.setRgb(0, 0, Rgb(1e20f));
+  const Comparison c = compareImages(a, b);
+  EXPECT_NEAR(*c.robustRelMse, 2. / 100 + 0.99e-4, 1e-5);
+  EXPECT_GT(*c.relMse, 1e30);
+}
+
+TEST(Compare, MeanRatiosByHand) {
+  Image a(4, 4, 3), b(4, 4, 3);
+  double squares = 0;
+  for (int i = 0; i < 16; ++i) {
+    const bool odd = i % 2;
+    a.setRgb(i % 4, i / 4, Rgb(odd ? 3.f : 1.f, 2, 0));
+    b.setRgb(i % 4, i / 4, Rgb(1, 4, 1));
+    squares += 1;  // (3 − 2·1)² or (1 − 2·1)²
+  }
+  const MeanRatios r = meanRatios(a, b);
+  EXPECT_DOUBLE_EQ(r[0]->ratio, 2);
+  const double half = 1.959963984540054 * std::sqrt(16. / 15 * squares) / 16;
+  EXPECT_NEAR(r[0]->low, 2 - half, 1e-12);
+  EXPECT_NEAR(r[0]->high, 2 + half, 1e-12);
+  EXPECT_DOUBLE_EQ(r[1]->ratio, 0.5);
+  EXPECT_DOUBLE_EQ(r[1]->low, 0.5);
+  EXPECT_DOUBLE_EQ(r[2]->ratio, 0);
+  EXPECT_TRUE(std::isinf(meanRatios(filled(2, 2, Rgb(1)), filled(2, 2, Rgb(1)))[0]->high));
+  EXPECT_FALSE(meanRatios(a, filled(4, 4, Rgb(0)))[3]);
+}
+
+TEST(Compare, ConfidenceIntervalsHoldTheRatioAsOftenAsTheySay) {
+  // Noise around a gradient; the true ratio is 1. Of 500 intervals 95 % should hold it; 430 or
+  // fewer, or all of them, have a probability below 1e-10.
+  int held = 0;
+  for (uint64_t trial = 0; trial < 500; ++trial) {
+    Image a(32, 32, 1), b(32, 32, 1);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) {
+        b.at(x, y, 0) = 1 + 0.1f * static_cast<float>(x);
+        a.at(x, y, 0) =
+            b.at(x, y, 0) * 2 * test::uniform(trial, static_cast<uint64_t>(y * 32 + x), 0);
+      }
+    const auto r = meanRatios(a, b)[3];
+    held += r->low <= 1 && r->high >= 1;
+  }
+  EXPECT_GT(held, 430);
+  EXPECT_LT(held, 500);
+}
+
+TEST(Compare, JsonHoldsEveryFigure) {
+  Image a = filled(9, 9, Rgb(1.5f));
+  a.setRgb(0, 0, Rgb(std::nanf("")));
+  const auto json = nlohmann::json::parse(comparisonJson(compareImages(a, filled(9, 9, Rgb(1)))));
+  EXPECT_DOUBLE_EQ(json["mse"], 0.25);
+  EXPECT_DOUBLE_EQ(json["mae"], 0.5);
+  EXPECT_DOUBLE_EQ(json["meanRatio"], 1.5);
+  EXPECT_DOUBLE_EQ(json["meanRatios"]["luminance"]["low"], 1.5);
+  EXPECT_EQ(json["notFinite"], 1);
+  EXPECT_EQ(json["pixels"], 80);
+  for (const char* key : {"rmse", "maxError", "relMse", "robustRelMse", "trimmedRelMse"})
+    EXPECT_TRUE(json[key].is_number()) << key;
+  const auto black = nlohmann::json::parse(comparisonJson(compareImages(a, filled(9, 9, Rgb()))));
+  EXPECT_TRUE(black["relMse"].is_null());
+  EXPECT_TRUE(black["meanRatios"]["red"].is_null());
+  EXPECT_TRUE(nlohmann::json::parse(comparisonJson(compareImages(a, Image()))).contains("error"));
 }
 
 TEST(Compare, GreyAgainstColour) {
