@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/aov.h"
 #include "base/filter.h"
 #include "base/texture.h"
 #include "core/bounds.h"
@@ -29,6 +30,10 @@ class Film {
   /// the order of their indices. Returns false, and adds black, if the radiance is not finite or
   /// negative.
   virtual bool addSample(const Int2& pixel, const Rgb& radiance, float weight) = 0;
+  /// The AOVs that the film keeps beside the image.
+  virtual AovSet aovs() const { return {}; }
+  /// Adds what the sample just added tells for them.
+  virtual void addAovs(const Int2& pixel, const AovRecord& record) { (void)pixel, (void)record; }
   virtual uint64_t sampleCount(const Int2& pixel) const = 0;
   /// Mean so far, scaled, negative values clipped.
   virtual Rgb pixel(const Int2& pixel) const = 0;

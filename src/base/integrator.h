@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <vector>
 
 #include "base/camera.h"
 #include "base/film.h"
@@ -16,22 +17,38 @@ namespace lampyris {
 
 /// How far along a render is.
 struct RenderProgress {
-  uint64_t samplesDone = 0;    ///< a pixel, all passes
-  uint64_t samplesTarget = 0;  ///< a pixel; 0: unknown (rendering for a given time)
+  uint64_t samplesDone = 0;    ///< that every pixel has
+  double meanSamples = 0;      ///< a pixel, on average: some may be ahead by one
+  uint64_t samplesTarget = 0;  ///< a pixel; 0: unknown (rendering for a time or to a noise)
   double fractionDone = 0;
-  double seconds = 0;
+  double seconds = 0;        ///< of rendering; time spent in onPass and onStop is left out
   uint64_t cameraPaths = 0;  ///< in all
 };
 
+/// A state of the image that is wanted on the way: at a number of samples a pixel, or at a time.
+struct RenderStop {
+  uint64_t samples = 0;  ///< > 0: when every pixel has exactly so many
+  double seconds = 0;    ///< else: when so much time has been spent rendering
+};
+
+/// A render ends at whichever of its limits comes first.
 struct RenderOptions {
   uint64_t firstSample = 0;  ///< index to start at (after --resume)
-  uint64_t sampleCount = 0;  ///< a pixel, the resumed ones included
-  double seconds = 0;        ///< > 0: until this time has passed, whatever sampleCount says
+  /// A pixel, the resumed ones included; 0: the sampler's number, or without limit where a time or
+  /// a noise is given.
+  uint64_t sampleCount = 0;
+  /// > 0: until so much time has been spent rendering, but not before every pixel has a sample.
+  double seconds = 0;
+  double noise = 0;  ///< > 0: until Film::noise() is no more than this
   const std::atomic<bool>* cancel = nullptr;
   /// Called between tiles, from one thread at a time; may be empty.
   std::function<void(const RenderProgress&)> onProgress;
-  /// Called after each pass, when every pixel has the same number of samples.
+  /// Called after each pass, when every pixel has the same number of samples, or some one more
+  /// where time has cut the pass short.
   std::function<void(const RenderProgress&)> onPass;
+  std::vector<RenderStop> stops;  ///< in any order; those beyond the render's end are not met
+  /// Called at each stop, with its index, after onPass.
+  std::function<void(size_t, const RenderProgress&)> onStop;
 };
 
 /// What an integrator works with.
@@ -47,7 +64,7 @@ struct RenderContext {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Renders into the film. Returns the number of samples a pixel that all pixels have.
+  /// Renders into the film. Returns the number of samples that every pixel has.
   virtual uint64_t render(RenderContext& context) const = 0;
 };
 

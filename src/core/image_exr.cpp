@@ -13,10 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/image_formats.h"
+#include "core/image_layers.h"
+#include "core/source.h"
 
 namespace lampyris {
 
@@ -75,13 +78,13 @@ std::vector<std::string> colourChannels(const std::string& path, const Imf::Chan
   return names;
 }
 
-Image readPixels(const std::string& path, Imf::InputFile& file) {
+Image readPixels(const std::string& path, Imf::InputFile& file,
+                 const std::vector<std::string>& names) {
   const Imath::Box2i window = file.header().dataWindow();
   const int64_t width = int64_t{window.max.x} - window.min.x + 1;
   const int64_t height = int64_t{window.max.y} - window.min.y + 1;
   checkImageSize(path, width, height);
   const Imf::ChannelList& channels = file.header().channels();
-  const std::vector<std::string> names = colourChannels(path, channels);
   for (const std::string& name : names) {
     const Imf::Channel* const c = channels.findChannel(name);
     if (c && (c->xSampling != 1 || c->ySampling != 1))
@@ -99,6 +102,40 @@ Image readPixels(const std::string& path, Imf::InputFile& file) {
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
   return image;
+}
+
+std::vector<std::string> layerChannels(const std::string& path, const Imf::ChannelList& channels,
+                                       const std::string& layer) {
+  for (const auto& letters : {std::array{"R", "G", "B"}, std::array{"X", "Y", "Z"}}) {
+    std::vector<std::string> names;
+    for (const char* letter : letters) names.push_back(layer + "." + letter);
+    if (std::all_of(names.begin(), names.end(),
+                    [&](const std::string& n) { return channels.findChannel(n); }))
+      return names;
+  }
+  for (const char* letter : {"Y", "Z"})
+    if (channels.findChannel(layer + "." + letter)) return {layer + "." + letter};
+  std::set<std::string> names;
+  channels.layers(names);
+  failImageRead(path,
+                fmt::format("no layer \"{}\"; its layers are: {}", layer,
+                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+/// f(file) of the EXR file with these bytes; all that the library throws becomes an IoError.
+template <class F>
+auto withExrFile(const std::string& path, std::string_view bytes, F&& f) {
+  try {
+    ByteStream stream(path.c_str(), bytes);
+    Imf::InputFile file(stream, 0);
+    return f(file);
+  } catch (const IoError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    failImageRead(path, e.what());
+  }
 }
 
 Imf::Header makeHeader(const std::string& path, const Image& image, const WriteOptions& options) {
@@ -165,17 +202,26 @@ void writePixels(const std::string& path, AtomicFile& target, const Image& image
 }  // namespace
 
 LoadedImage readExrImage(const std::string& path, std::string_view bytes) {
-  try {
-    ByteStream stream(path.c_str(), bytes);
-    Imf::InputFile file(stream, 0);
-    return {readPixels(path, file), false};
-  } catch (const IoError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {
-    failImageRead(path, e.what());
-  }
+  return withExrFile(path, bytes, [&path](Imf::InputFile& file) {
+    return LoadedImage{readPixels(path, file, colourChannels(path, file.header().channels())),
+                       false};
+  });
+}
+
+std::vector<std::string> exrLayerNames(const std::string& path) {
+  const MappedFile bytes(path);
+  return withExrFile(path, bytes.text(), [](Imf::InputFile& file) {
+    std::set<std::string> names;
+    file.header().channels().layers(names);
+    return std::vector<std::string>(names.begin(), names.end());
+  });
+}
+
+Image readExrLayer(const std::string& path, const std::string& layer) {
+  const MappedFile bytes(path);
+  return withExrFile(path, bytes.text(), [&](Imf::InputFile& file) {
+    return readPixels(path, file, layerChannels(path, file.header().channels(), layer));
+  });
 }
 
 void writeExrImage(const std::string& path, const Image& image, const WriteOptions& options) {

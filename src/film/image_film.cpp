@@ -2,6 +2,7 @@
 // The film "image". Parameters, crop windows and clamping follow pbrt-v3; its filter is sampled
 // (base/filter.h), so a sample touches one pixel and no locks are needed.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -12,6 +13,7 @@
 #include "base/film.h"
 #include "core/image.h"
 #include "core/math.h"
+#include "film/aov_sums.h"
 #include "film/pixel_sums.h"
 
 namespace lampyris {
@@ -23,6 +25,7 @@ struct ImageFilmParameters {
   std::vector<float> cropWindow{0, 1, 0, 1};
   float scale = 1, maxSampleLuminance = kInfinity, diagonal = 35;
   std::string filename = "lampyris.exr";
+  std::vector<std::string> aovs;
   void declare(Declaration& d) {
     d.add("xresolution", xResolution, "Width of the image, in pixels.").range(1, 1 << 20);
     d.add("yresolution", yResolution, "Height of the image, in pixels.").range(1, 1 << 20);
@@ -36,6 +39,9 @@ struct ImageFilmParameters {
         .defaultIs("infinity");
     d.add("diagonal", diagonal, "Diagonal of the film, in millimetres.").range(1e-6, 1e6);
     d.add("filename", filename, "Where the image is written, in the format of its ending.");
+    d.add("aovs", aovs,
+          fmt::format("Layers to write beside the image into EXR files: {}.",
+                      fmt::join(kAovNames, ", ")));
   }
 };
 
@@ -64,14 +70,16 @@ bool isValid(const Rgb& c) {
 
 class ImageFilm final : public Film {
  public:
-  ImageFilm(const ImageFilmParameters& p, const PixelBounds& bounds, std::unique_ptr<Filter> filter)
+  ImageFilm(const ImageFilmParameters& p, const PixelBounds& bounds, AovSet aovs,
+            std::unique_ptr<Filter> filter)
       : resolution_(p.xResolution, p.yResolution),
         bounds_(bounds),
         filter_(std::move(filter)),
         filename_(p.filename),
         scale_(static_cast<double>(p.scale)),
         maxLuminance_(p.maxSampleLuminance),
-        pixels_(static_cast<size_t>(bounds.area())) {}
+        pixels_(static_cast<size_t>(bounds.area())),
+        aovs_(aovs, pixels_.size()) {}
 
   Int2 resolution() const override { return resolution_; }
   PixelBounds bounds() const override { return bounds_; }
@@ -79,17 +87,27 @@ class ImageFilm final : public Film {
   const std::string& filename() const override { return filename_; }
 
   bool addSample(const Int2& pixel, const Rgb& radiance, float weight) override {
-    PixelSums& sums = pixels_[index(pixel)];
+    const size_t i = index(pixel);
+    PixelSums& sums = pixels_[i];
     store(sums.count, sums.count + 1);
     if (!isValid(radiance)) return false;
     const auto y = static_cast<double>(radiance.luminance());
     double factor = static_cast<double>(weight);
     if (y > static_cast<double>(maxLuminance_)) factor *= static_cast<double>(maxLuminance_) / y;
-    store(sums.r, sums.r + factor * static_cast<double>(radiance.r));
-    store(sums.g, sums.g + factor * static_cast<double>(radiance.g));
-    store(sums.b, sums.b + factor * static_cast<double>(radiance.b));
+    const std::array<double, 3> rgb{factor * static_cast<double>(radiance.r),
+                                    factor * static_cast<double>(radiance.g),
+                                    factor * static_cast<double>(radiance.b)};
+    store(sums.r, sums.r + rgb[0]);
+    store(sums.g, sums.g + rgb[1]);
+    store(sums.b, sums.b + rgb[2]);
     store(sums.luminanceSquares, sums.luminanceSquares + sqr(factor * y));
+    aovs_.addColour(i, rgb);
     return true;
+  }
+
+  AovSet aovs() const override { return aovs_.set(); }
+  void addAovs(const Int2& pixel, const AovRecord& record) override {
+    aovs_.add(index(pixel), record);
   }
 
   uint64_t sampleCount(const Int2& pixel) const override {
@@ -115,11 +133,16 @@ class ImageFilm final : public Film {
     WriteOptions options;
     options.metadata = metadata;
     options.placement = {bounds_.min, resolution_};
+    options.layers = aovs_.layers(pixels_, scale_);
     writeImageFile(path, image, options);
   }
 
-  std::string save() const override { return encodeSums(bounds_, pixels_); }
-  bool restore(const std::string& bytes) override { return decodeSums(bytes, bounds_, pixels_); }
+  std::string save() const override {
+    return encodeSums({bounds_, aovs_.set()}, pixels_, aovs_.values());
+  }
+  bool restore(const std::string& bytes) override {
+    return decodeSums(bytes, {bounds_, aovs_.set()}, pixels_, aovs_.values());
+  }
 
  private:
   size_t index(const Int2& p) const {
@@ -136,6 +159,7 @@ class ImageFilm final : public Film {
   double scale_;
   float maxLuminance_;
   std::vector<PixelSums> pixels_;
+  AovSums aovs_;
 };
 
 /// Infinite as long as no pixel has two samples: nothing is known then, and nobody should stop.
@@ -185,9 +209,29 @@ PixelBounds cropBounds(const ImageFilmParameters& p, SourceLocation where) {
   return bounds;
 }
 
+/// `lists`: names, alone or several in a string with commas or blanks between.
+AovSet aovSet(const std::vector<std::string>& lists, SourceLocation where) {
+  const std::vector<std::string> known(kAovNames.begin(), kAovNames.end());
+  AovSet set;
+  for (const std::string& list : lists)
+    for (size_t at = 0; (at = list.find_first_not_of(", ", at)) != std::string::npos;) {
+      const size_t end = std::min(list.find_first_of(", ", at), list.size());
+      const std::string name = list.substr(at, end - at);
+      const auto found = std::find(known.begin(), known.end(), name);
+      if (found == known.end())
+        throw SceneError(
+            where, fmt::format("parameter \"aovs\": unknown layer \"{}\"{}; there are: {}", name,
+                               didYouMean(name, known), fmt::join(known, ", ")));
+      set.add(static_cast<Aov>(found - known.begin()));
+      at = end;
+    }
+  return set;
+}
+
 /// A mistyped resolution should be an error at once, not a machine that swaps to death.
-void checkMemory(const PixelBounds& bounds, SourceLocation where) {
-  const double bytes = static_cast<double>(bounds.area()) * sizeof(PixelSums);
+void checkMemory(const PixelBounds& bounds, AovSet aovs, SourceLocation where) {
+  const size_t pixelBytes = sizeof(PixelSums) + AovSums::sumsPerPixel(aovs) * sizeof(double);
+  const double bytes = static_cast<double>(bounds.area()) * static_cast<double>(pixelBytes);
   const double installed =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   if (installed > 0 && bytes > installed)
@@ -211,9 +255,10 @@ std::unique_ptr<Film> create(const ImageFilmParameters& p, const ParameterSet& s
                     "ends in .exr, .pfm, .png, .hdr, .tga, .bmp or .jpg",
                     p.filename));
   if (!context.filter) throw SceneError(context.location, "a film needs a pixel filter");
-  checkMemory(bounds, at("xresolution"));
+  const AovSet aovs = aovSet(p.aovs, at("aovs"));
+  checkMemory(bounds, aovs, at("xresolution"));
   try {
-    return std::make_unique<ImageFilm>(p, bounds, std::move(context.filter));
+    return std::make_unique<ImageFilm>(p, bounds, aovs, std::move(context.filter));
   } catch (const std::bad_alloc&) {
     throw SceneError(at("xresolution"), "not enough memory for the image; make it smaller");
   }

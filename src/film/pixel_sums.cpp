@@ -15,16 +15,18 @@ static_assert(std::endian::native == std::endian::little);
 
 struct Header {
   std::array<char, 8> magic{'L', 'A', 'M', 'P', 'F', 'I', 'L', 'M'};
-  uint32_t version = 1;
+  uint32_t version = 2;
   uint32_t pixelBytes = sizeof(PixelSums);
   std::array<int32_t, 4> bounds{};
+  uint64_t aovs = 0;
 
   bool operator==(const Header&) const = default;
 };
 
-Header headerOf(const PixelBounds& b) {
+Header headerOf(const SumsKey& key) {
   Header h;
-  h.bounds = {b.min.x, b.min.y, b.max.x, b.max.y};
+  h.bounds = {key.bounds.min.x, key.bounds.min.y, key.bounds.max.x, key.bounds.max.y};
+  h.aovs = key.aovs.bits();
   return h;
 }
 
@@ -41,27 +43,33 @@ uint64_t checksum(const char* bytes, size_t size) {
 
 }  // namespace
 
-std::string encodeSums(const PixelBounds& bounds, std::span<const PixelSums> sums) {
-  const Header header = headerOf(bounds);
+std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
+                       std::span<const double> aovSums) {
+  const Header header = headerOf(key);
   std::string bytes;
-  bytes.reserve(sizeof header + sums.size_bytes() + sizeof(uint64_t));
+  bytes.reserve(sizeof header + sums.size_bytes() + aovSums.size_bytes() + sizeof(uint64_t));
   bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
   bytes.append(reinterpret_cast<const char*>(sums.data()), sums.size_bytes());
+  if (!aovSums.empty())
+    bytes.append(reinterpret_cast<const char*>(aovSums.data()), aovSums.size_bytes());
   const uint64_t sum = checksum(bytes.data(), bytes.size());
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   return bytes;
 }
 
-bool decodeSums(std::string_view bytes, const PixelBounds& bounds, std::span<PixelSums> out) {
+bool decodeSums(std::string_view bytes, const SumsKey& key, std::span<PixelSums> sums,
+                std::span<double> aovSums) {
   if (bytes.size() < sizeof(Header) + sizeof(uint64_t)) return false;
   const size_t body = bytes.size() - sizeof(uint64_t);
-  if (body - sizeof(Header) != out.size_bytes()) return false;
+  if (body - sizeof(Header) != sums.size_bytes() + aovSums.size_bytes()) return false;
   Header header;
   std::memcpy(&header, bytes.data(), sizeof header);
   uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + body, sizeof sum);
-  if (header != headerOf(bounds) || sum != checksum(bytes.data(), body)) return false;
-  std::memcpy(out.data(), bytes.data() + sizeof header, body - sizeof header);
+  if (header != headerOf(key) || sum != checksum(bytes.data(), body)) return false;
+  const char* const data = bytes.data() + sizeof header;
+  std::memcpy(sums.data(), data, sums.size_bytes());
+  if (!aovSums.empty()) std::memcpy(aovSums.data(), data + sums.size_bytes(), aovSums.size_bytes());
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/aov.h"
 #include "core/bounds.h"
 
 namespace lampyris {
@@ -19,9 +20,17 @@ struct PixelSums {
   bool operator==(const PixelSums&) const = default;
 };
 
-/// Header (magic, version, bounds), sums, checksum; little-endian.
-std::string encodeSums(const PixelBounds& bounds, std::span<const PixelSums> sums);
-/// Back; false, with `out` untouched, if the bytes are damaged or of other bounds.
-bool decodeSums(std::string_view bytes, const PixelBounds& bounds, std::span<PixelSums> out);
+/// What the sums are of.
+struct SumsKey {
+  PixelBounds bounds;
+  AovSet aovs;
+};
+
+/// Header (magic, version, key), sums, those of the AOVs, checksum; little-endian.
+std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
+                       std::span<const double> aovSums);
+/// Back; false, with the outputs untouched, if the bytes are damaged or of another key.
+bool decodeSums(std::string_view bytes, const SumsKey& key, std::span<PixelSums> sums,
+                std::span<double> aovSums);
 
 }  // namespace lampyris

@@ -68,21 +68,41 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
   return sum;
 }
 
-Rgb DirectLighting::cutSamples(const LightSampleContext& at, float time, float choice,
-                               const Vec2& u, RayCounts& rays) const {
+const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float choice) const {
   // One a thread: a cut is drawn and used up before the next one.
   thread_local SampledLights cut;
   cut.clear();
   distribution_->sampleCut(at, choice, cut);
+  return cut;
+}
+
+Rgb DirectLighting::cutSamples(const LightSampleContext& at, float time, float choice,
+                               const Vec2& u, RayCounts& rays) const {
   Rgb sum;
   Vec2 shifted = u;
-  for (const SampledLight& chosen : cut) {
+  for (const SampledLight& chosen : drawCut(at, choice)) {
     sum += lightSample(at, time, chosen, shifted, rays);
     // Roberts 2018: a sequence with few gaps whatever its length.
     shifted += Vec2(0.7548776662f, 0.5698402910f);
     shifted -= glm::floor(shifted);
   }
   return sum;
+}
+
+void DirectLighting::recordDraws(const LightSampleContext& at, SampleStream stream,
+                                 AovRecord& record) const {
+  record.beginLightVertex();
+  if (strategy_ == LightStrategy::One) {
+    const float choice = stream.next1D();
+    if (splits_) {
+      for (const SampledLight& chosen : drawCut(at, choice)) record.lightDraw(chosen.pmf);
+    } else if (const auto chosen = distribution_->sample(at, choice)) {
+      record.lightDraw(chosen->pmf);
+    }
+    return;
+  }
+  for (LightId id = 0; id < lightCount_; ++id)
+    for (int i = samplesOf(*scene_.lightTable[id].light); i > 0; --i) record.lightDraw(1);
 }
 
 Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,

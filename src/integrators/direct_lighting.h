@@ -33,6 +33,9 @@ class DirectLighting {
   /// its numbers from stream.dimension() on. at.bsdf must be set; `time` is that of the rays.
   Rgb lightSamples(const LightSampleContext& at, float time, SampleStream& stream,
                    RayCounts& rays) const;
+  /// Opens a light vertex and notes the lights that lightSamples() draws there with the same
+  /// arguments, by drawing them again.
+  void recordDraws(const LightSampleContext& at, SampleStream stream, AovRecord& record) const;
   /// The other part, by rays of its own: for integrators whose paths end here.
   Rgb bsdfSamples(const LightSampleContext& at, float time, SampleStream& stream,
                   RayCounts& rays) const;
@@ -49,7 +52,8 @@ class DirectLighting {
  private:
   /// How often lightSamples() draws the light, on average.
   float expectedDraws(const LightSampleContext& at, LightId light) const;
-  /// One light of each cluster of the distribution's cut.
+  /// One light of each cluster of the distribution's cut; valid until the thread's next one.
+  const SampledLights& drawCut(const LightSampleContext& at, float choice) const;
   Rgb cutSamples(const LightSampleContext& at, float time, float choice, const Vec2& u,
                  RayCounts& rays) const;
   Rgb lightSample(const LightSampleContext& at, float time, const SampledLight& chosen,

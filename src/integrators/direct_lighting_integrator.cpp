@@ -5,6 +5,7 @@
 // bounds the time for any depth.
 #include <array>
 
+#include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 
 namespace lampyris {
@@ -105,13 +106,17 @@ bool DirectLightingEstimator::findSurface(Node& node, RenderState& state, Rgb& r
 /// Light scattered by the lobes that are not specular.
 Rgb DirectLightingEstimator::shade(const Node& node, const SurfaceInteraction& at,
                                    SampleStream& stream, RenderState& state) const {
+  stream.setDimension(node.firstDimension);
+  if (state.aov && node.firstDimension == kFirstPathDimension)
+    recordSurface(*state.aov, at, state.bsdf, stream);
   if (!lighting_.hasLights() || state.bsdf.isSpecular()) return Rgb();
   const LightSampleContext context(at, state.bsdf);
-  stream.setDimension(node.firstDimension);
-  Rgb sum = lighting_.lightSamples(context, node.ray.time, stream, state.rays);
+  if (state.aov) lighting_.recordDraws(context, stream, *state.aov);
+  const Rgb light = lighting_.lightSamples(context, node.ray.time, stream, state.rays);
   stream.setDimension(node.firstDimension + lighting_.lightDimensions());
-  sum += lighting_.bsdfSamples(context, node.ray.time, stream, state.rays);
-  return sum;
+  const Rgb scattered = lighting_.bsdfSamples(context, node.ray.time, stream, state.rays);
+  if (state.aov) state.aov->lightSampled(light), state.aov->bsdfSampled(scattered);
+  return light + scattered;
 }
 
 /// The specular directions at a surface, with what each contributes.

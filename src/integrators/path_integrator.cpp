@@ -5,6 +5,7 @@
 // weighed whichever light was drawn. Cost a vertex: one shadow ray, one ray.
 #include "integrators/path_integrator.h"
 
+#include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 
 namespace lampyris {
@@ -32,7 +33,7 @@ class PathEstimator final : public RadianceEstimator {
 
  private:
   struct Path;
-  Rgb emission(const Path& path, const SurfaceInteraction& at) const;
+  static void addFound(Path& path, const RenderState& state, const Rgb& light);
   bool scatter(Path& path, SurfaceInteraction& at, const Material& material, SampleStream& stream,
                RenderState& state) const;
   bool survives(Path& path, SampleStream& stream) const;
@@ -68,9 +69,9 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     const auto hit = geometry_.intersect(path.ray);
     if (!hit) {
       if (!path.blind)
-        path.radiance += path.throughput *
-                         (path.weighed ? lighting_.foundOutside(path.from, path.bsdfPdf, path.ray.d)
-                                       : lighting_.outside(path.ray.d));
+        addFound(path, state,
+                 path.weighed ? lighting_.foundOutside(path.from, path.bsdfPdf, path.ray.d)
+                              : lighting_.outside(path.ray.d));
       break;
     }
     const Primitive& primitive = geometry_.primitive(*hit);
@@ -82,7 +83,10 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
                                               footprint  ? SurfaceDetail::Full
                                               : material ? material->detail()
                                                          : SurfaceDetail::Basic);
-    if (primitive.light && !path.blind) path.radiance += emission(path, at);
+    if (primitive.light && !path.blind)
+      addFound(path, state,
+               path.weighed ? lighting_.foundAtHit(path.from, path.bsdfPdf, at)
+                            : primitive.light->emitted(at, at.wo));
     if (last) break;
     if (!material) {
       if (++path.interfaces > kMaxInterfaces) break;
@@ -98,9 +102,11 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   return path.radiance;
 }
 
-Rgb PathEstimator::emission(const Path& path, const SurfaceInteraction& at) const {
-  return path.throughput * (path.weighed ? lighting_.foundAtHit(path.from, path.bsdfPdf, at)
-                                         : at.primitive->light->emitted(at, at.wo));
+/// Adds light that the path's ray has found.
+void PathEstimator::addFound(Path& path, const RenderState& state, const Rgb& light) {
+  const Rgb radiance = path.throughput * light;
+  path.radiance += radiance;
+  if (state.aov && path.weighed) state.aov->bsdfSampled(radiance);
 }
 
 /// Russian roulette with the probabilities of pbrt-v3, but after the emission at the new vertex has
@@ -125,13 +131,20 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
   if (bsdf.empty()) return false;
   const uint32_t first =
       kFirstPathDimension + static_cast<uint32_t>(path.bounces) * kDimensionsPerVertex;
+  if (state.aov && path.bounces == 0) {
+    stream.setDimension(first + 3);
+    recordSurface(*state.aov, at, bsdf, stream);
+  }
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
     path.from = LightSampleContext(at, bsdf);
     // The noise of a vertex goes into the image times the throughput: that many lights less pay.
     path.from.worth = std::min(path.throughput.maxComponent(), 1.f);
-    path.radiance +=
+    if (state.aov) lighting_.recordDraws(path.from, stream, *state.aov);
+    const Rgb light =
         path.throughput * lighting_.lightSamples(path.from, path.ray.time, stream, state.rays);
+    path.radiance += light;
+    if (state.aov) state.aov->lightSampled(light);
   }
   // Where rays find no light, the last one need not be traced.
   if (path.bounces + 1 >= maxDepth_ && !lighting_.hasVisibleLights()) return false;

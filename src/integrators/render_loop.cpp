@@ -6,56 +6,23 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 
 #include "core/parallel.h"
+#include "integrators/bad_samples.h"
+#include "integrators/pass_schedule.h"
 
 namespace lampyris {
 
 namespace {
 
-/// A pass takes about this long at most: between passes images and checkpoints are written.
-constexpr double kPassSeconds = 4;
 constexpr double kProgressInterval = 0.1;
-constexpr size_t kReportedBadSamples = 10;
 
-/// Samples whose radiance is no radiance: how many of which kind, and the first of them.
-class BadSamples {
- public:
-  void add(const SampleAddress& address, const Rgb& radiance) {
-    const bool nan = std::isnan(radiance.r) || std::isnan(radiance.g) || std::isnan(radiance.b);
-    ++(nan ? nan_ : radiance.isFinite() ? negative_ : infinite_);
-    if (first_.size() < kReportedBadSamples) first_.push_back(address);
-  }
-  bool empty() const { return nan_ + infinite_ + negative_ == 0; }
+using Clock = std::chrono::steady_clock;
 
-  void merge(const BadSamples& other) {
-    nan_ += other.nan_;
-    infinite_ += other.infinite_;
-    negative_ += other.negative_;
-    first_.insert(first_.end(), other.first_.begin(), other.first_.end());
-    // In an order that does not depend on which tile was done first.
-    std::sort(first_.begin(), first_.end(), [](const SampleAddress& a, const SampleAddress& b) {
-      return std::tie(a.index, a.pixel.y, a.pixel.x) < std::tie(b.index, b.pixel.y, b.pixel.x);
-    });
-    if (first_.size() > kReportedBadSamples) first_.resize(kReportedBadSamples);
-  }
-
-  void report(Statistics& statistics) const {
-    const auto count = [](uint64_t n) { return static_cast<double>(n); };
-    statistics.add("bad samples", "not a number", count(nan_));
-    statistics.add("bad samples", "infinite", count(infinite_));
-    statistics.add("bad samples", "negative", count(negative_));
-    if (first_.empty()) return;
-    std::string list;
-    for (const SampleAddress& a : first_)
-      list += fmt::format("{}{},{} #{}", list.empty() ? "" : "; ", a.pixel.x, a.pixel.y, a.index);
-    statistics.set("bad samples", "pixel x,y #sample", list);
-  }
-
- private:
-  uint64_t nan_ = 0, infinite_ = 0, negative_ = 0;
-  std::vector<SampleAddress> first_;
-};
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
 
 class PassRenderer {
  public:
@@ -65,10 +32,12 @@ class PassRenderer {
         options_(context.options),
         pixels_(pixels),
         estimator_(estimator),
-        target_(options_.seconds > 0 ? 0
-                : options_.sampleCount > 0
-                    ? options_.sampleCount
+        target_(options_.sampleCount > 0 ? options_.sampleCount
+                : options_.seconds > 0 || options_.noise > 0
+                    ? 0
                     : static_cast<uint64_t>(context.sampler.samplesPerPixel())),
+        schedule_(options_, target_),
+        aovs_(context.film.aovs()),
         done_(options_.firstSample),
         // As in pbrt-v3: the footprint of one of several samples is smaller than the pixel.
         differentialScale_(
@@ -85,82 +54,98 @@ class PassRenderer {
  private:
   int64_t tilesAcross() const { return (pixels_.size().x + tileSize_ - 1) / tileSize_; }
   int64_t tilesDown() const { return (pixels_.size().y + tileSize_ - 1) / tileSize_; }
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  double perPixel(uint64_t paths) const {
+    return static_cast<double>(paths) / static_cast<double>(pixels_.area());
   }
+  /// The render's clock.
+  double seconds() const { return secondsBetween(start_, Clock::now()) - paused_; }
   bool cancelled() const {
     return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
-  uint64_t nextPassSize(uint64_t rendered, double secondsPerSample) const;
+  bool cutShort() const { return cancelled() || (deadline_ > 0 && seconds() >= deadline_); }
+  void renderPass(uint64_t samples);
+  void passDone();
   void renderTile(int64_t tile, uint64_t end);
+  void renderPixel(SampleAddress address, uint64_t end, RenderState& state, BadSamples& bad) const;
   void renderSample(const SampleAddress& address, RenderState& state, BadSamples& bad) const;
-  RenderProgress progress(double tilesDone) const;
-  void tileDone(uint64_t paths, const RenderState& state, const BadSamples& bad);
+  RenderProgress progress() const;
+  void tileDone(uint64_t paths, bool whole, const RenderState& state, const BadSamples& bad);
   void report(double seconds);
 
   RenderContext& context_;
   const RenderOptions& options_;
   const PixelBounds pixels_;
   const RadianceEstimator& estimator_;
-  const uint64_t target_;  ///< 0: by time
+  const uint64_t target_;  ///< 0: without limit
+  PassSchedule schedule_;
+  const AovSet aovs_;
   uint64_t done_;
   const float differentialScale_;
   bool differentials_ = false;
   int tileSize_ = 16;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Clock::time_point start_ = Clock::now();
+  double paused_ = 0;    ///< seconds for which the render's clock stood still
+  double deadline_ = 0;  ///< of the pass; 0: none
+  double noise_ = kInfinity;
+  uint64_t earlierPaths_ = 0;  ///< that the film had of these pixels at the start
 
   std::mutex mutex_;  ///< guards what follows, and the progress callback
   uint64_t paths_ = 0;
-  int64_t tilesDone_ = 0;
-  uint64_t passSize_ = 0;
+  int64_t wholeTiles_ = 0;  ///< of the pass, that were not cut short
   double lastProgress_ = 0;
   RayCounts rays_;
   BadSamples bad_;
 };
 
-/// Passes double what has been rendered, so that first images come early and later ones cost no
-/// synchronisation, within what the target and the time leave. 0: done.
-uint64_t PassRenderer::nextPassSize(uint64_t rendered, double secondsPerSample) const {
-  uint64_t size = std::max<uint64_t>(rendered, 1);
-  if (rendered > 0 && secondsPerSample > 0) {
-    const auto within = [&](double time) {
-      return static_cast<uint64_t>(std::min(time / secondsPerSample, 1e15));
-    };
-    size = std::min(size, std::max<uint64_t>(1, within(kPassSeconds)));
-    if (options_.seconds > 0) {
-      // Half a sample over the limit is as near as half a sample short of it.
-      const double left = options_.seconds - seconds();
-      if (left < 0.5 * secondsPerSample) return 0;
-      size = std::min(size, std::max<uint64_t>(1, within(left)));
-    }
-  }
-  if (target_ > 0) size = std::min(size, target_ - std::min(target_, done_));
-  return size;
-}
-
 uint64_t PassRenderer::run() {
-  const auto tiles = static_cast<size_t>(tilesAcross() * tilesDown());
-  uint64_t rendered = 0;
-  double secondsPerSample = 0;
+  for (int y = pixels_.min.y; y < pixels_.max.y; ++y)
+    for (int x = pixels_.min.x; x < pixels_.max.x; ++x)
+      earlierPaths_ += context_.film.sampleCount({x, y});
+  if (options_.noise > 0) noise_ = context_.film.noise();
   while (!cancelled()) {
-    passSize_ = nextPassSize(rendered, secondsPerSample);
-    if (passSize_ == 0) break;
-    const double before = seconds();
-    const uint64_t end = done_ + passSize_;
-    tilesDone_ = 0;
-    parallelFor(tiles, 1, [&](size_t first, size_t last) {
-      for (size_t t = first; t < last && !cancelled(); ++t)
-        renderTile(static_cast<int64_t>(t), end);
-    });
-    if (cancelled()) break;
-    secondsPerSample = (seconds() - before) / static_cast<double>(passSize_);
-    rendered += passSize_;
-    done_ = end;
-    passSize_ = 0;
-    if (options_.onPass) options_.onPass(progress(0));
+    const auto pass = schedule_.next(done_, seconds(), noise_);
+    if (!pass) break;
+    deadline_ = pass->deadline;
+    renderPass(pass->samples);
+    if (!cancelled()) passDone();
   }
   report(seconds());
   return done_;
+}
+
+/// A number without a common divisor with `count`, about the golden section of it.
+int64_t strideFor(int64_t count) {
+  auto stride = static_cast<int64_t>(0.618 * static_cast<double>(count));
+  while (std::gcd(stride, count) != 1) ++stride;
+  return stride;
+}
+
+void PassRenderer::renderPass(uint64_t samples) {
+  const int64_t tiles = tilesAcross() * tilesDown();
+  // A pass that may be cut short takes the tiles of the whole image evenly.
+  const int64_t stride = deadline_ > 0 ? strideFor(tiles) : 1;
+  const uint64_t end = done_ + samples;
+  const double before = seconds();
+  const uint64_t pathsBefore = paths_;
+  wholeTiles_ = 0;
+  parallelFor(static_cast<size_t>(tiles), 1, [&](size_t first, size_t last) {
+    for (size_t t = first; t < last && !cutShort(); ++t)
+      renderTile(static_cast<int64_t>(t) * stride % tiles, end);
+  });
+  schedule_.passDone(perPixel(paths_ - pathsBefore), seconds() - before);
+  if (wholeTiles_ == tiles) done_ = end;
+}
+
+/// Calls who looks at the image, while the render's clock stands still.
+void PassRenderer::passDone() {
+  const double now = seconds();
+  const Clock::time_point start = Clock::now();
+  if (options_.noise > 0) noise_ = context_.film.noise();
+  const RenderProgress p = progress();
+  if (options_.onPass) options_.onPass(p);
+  for (const size_t stop : schedule_.takeStops(done_, now))
+    if (options_.onStop) options_.onStop(stop, p);
+  paused_ += secondsBetween(start, Clock::now());
 }
 
 void PassRenderer::renderTile(int64_t tile, uint64_t end) {
@@ -171,13 +156,38 @@ void PassRenderer::renderTile(int64_t tile, uint64_t end) {
   RenderState state;
   BadSamples bad;
   uint64_t paths = 0;
-  for (int y = area.min.y; y < area.max.y; ++y) {
-    for (int x = area.min.x; x < area.max.x && !cancelled(); ++x) {
-      SampleAddress address{{x, y}, context_.film.sampleCount({x, y})};
-      for (; address.index < end; ++address.index, ++paths) renderSample(address, state, bad);
+  bool whole = true;
+  for (int y = area.min.y; y < area.max.y && whole; ++y) {
+    for (int x = area.min.x; x < area.max.x; ++x) {
+      const SampleAddress first{{x, y}, context_.film.sampleCount({x, y})};
+      if (first.index >= end) continue;
+      whole = !cutShort();
+      if (!whole) break;
+      renderPixel(first, end, state, bad);
+      paths += end - first.index;
     }
   }
-  tileDone(paths, state, bad);
+  tileDone(paths, whole, state, bad);
+}
+
+void PassRenderer::renderPixel(SampleAddress address, uint64_t end, RenderState& state,
+                               BadSamples& bad) const {
+  if (aovs_.empty()) {
+    for (; address.index < end; ++address.index) renderSample(address, state, bad);
+    return;
+  }
+  const bool timed = aovs_.has(Aov::Time);
+  for (; address.index < end; ++address.index) {
+    AovRecord record;
+    state.aov = &record;
+    const uint64_t rays = state.rays.closest;
+    const Clock::time_point before = timed ? Clock::now() : Clock::time_point();
+    renderSample(address, state, bad);
+    if (timed) record.seconds = secondsBetween(before, Clock::now());
+    record.segments = state.rays.closest - rays;
+    context_.film.addAovs(address.pixel, record);
+  }
+  state.aov = nullptr;
 }
 
 void PassRenderer::renderSample(const SampleAddress& address, RenderState& state,
@@ -199,6 +209,7 @@ void PassRenderer::renderSample(const SampleAddress& address, RenderState& state
       d.xDirection = r.d + (d.xDirection - r.d) * differentialScale_;
       d.yDirection = r.d + (d.yDirection - r.d) * differentialScale_;
     }
+    if (state.aov) state.aov->cameraPoint = camera.ray.o;
     stream.setDimension(kFirstPathDimension);
     radiance = estimator_.radiance(camera, stream, state) * camera.weight;
   }
@@ -206,40 +217,35 @@ void PassRenderer::renderSample(const SampleAddress& address, RenderState& state
     bad.add(address, radiance);
 }
 
-RenderProgress PassRenderer::progress(double tilesDone) const {
+RenderProgress PassRenderer::progress() const {
   RenderProgress p;
   p.samplesDone = done_;
+  p.meanSamples = perPixel(earlierPaths_ + paths_);
   p.samplesTarget = target_;
   p.seconds = seconds();
   p.cameraPaths = paths_;
-  if (target_ == 0) {
-    p.fractionDone = std::min(1., p.seconds / options_.seconds);
-  } else {
-    const double inPass = tilesDone / static_cast<double>(tilesAcross() * tilesDown()) *
-                          static_cast<double>(passSize_);
-    p.fractionDone =
-        std::min(1., (static_cast<double>(done_) + inPass) / static_cast<double>(target_));
-  }
+  p.fractionDone = schedule_.fraction(p.meanSamples, p.seconds, noise_);
   return p;
 }
 
-void PassRenderer::tileDone(uint64_t paths, const RenderState& state, const BadSamples& bad) {
+void PassRenderer::tileDone(uint64_t paths, bool whole, const RenderState& state,
+                            const BadSamples& bad) {
   const std::lock_guard lock(mutex_);
   paths_ += paths;
-  ++tilesDone_;
+  wholeTiles_ += whole ? 1 : 0;
   rays_ += state.rays;
   if (!bad.empty()) bad_.merge(bad);
   if (!options_.onProgress) return;
   const double now = seconds();
   if (now - lastProgress_ < kProgressInterval) return;
   lastProgress_ = now;
-  options_.onProgress(progress(static_cast<double>(tilesDone_)));
+  options_.onProgress(progress());
 }
 
 void PassRenderer::report(double seconds) {
   Statistics& s = context_.statistics;
   const auto total = static_cast<double>(rays_.closest + rays_.shadow);
-  s.set("render", "samples per pixel", static_cast<double>(done_));
+  s.set("render", "samples per pixel", progress().meanSamples);
   s.set("render", "seconds", seconds);
   s.set("render", "camera paths", static_cast<double>(paths_));
   s.set("render", "camera paths per second",

@@ -23,6 +23,7 @@ struct RayCounts {
 struct RenderState {
   Bsdf bsdf;
   RayCounts rays;
+  AovRecord* aov = nullptr;  ///< of the sample being made; null: nobody asked
 };
 
 /// Estimates the radiance that arrives along a camera ray. Thread-safe.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/image_layers.h"
 #include "tools/commands.h"
 #include "tools/compare.h"
 #include "tools/error_image.h"
@@ -53,13 +56,14 @@ int runCompare(const Arguments& arguments) {
 }
 
 int runConvert(const Arguments& arguments) {
-  std::string from, to;
+  std::string from, to, layer;
   CLI::App app("Writes image A as B, in the format that B's ending says.", "lampyris convert");
   app.add_option("A", from, "Image to read")->required();
   app.add_option("B", to, "Image to write")->required();
+  app.add_option("--layer", layer, "Layer of an EXR file to take instead of its image");
   if (const auto code = parseArguments(app, arguments)) return *code;
   expectWritable(to);
-  writeImageFile(to, readLinearImage(from));
+  writeImageFile(to, layer.empty() ? readLinearImage(from) : readExrLayer(from, layer));
   return kDone;
 }
 
@@ -83,6 +87,9 @@ int runInfo(const Arguments& arguments) {
   fmt::print("{}: {} x {}, {} channel{}, mean {:.6g}", path, image.width(), image.height(),
              channels, channels == 1 ? "" : "s", fmt::join(sum, " "));
   fmt::print("{}\n", bad > 0 ? fmt::format(", {} values not finite", bad) : "");
+  if (!std::filesystem::path(path).extension().compare(".exr"))
+    if (const auto layers = exrLayerNames(path); !layers.empty())
+      fmt::print("layers: {}\n", fmt::join(layers, ", "));
   return kDone;
 }
 

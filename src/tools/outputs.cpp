@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -47,6 +48,11 @@ Outputs::Outputs(const std::vector<std::string>& requested, const Film& film) : 
       paths_.push_back(fs::path(own).replace_extension(".png").string());
   }
   for (const std::string& p : paths_) checkWritable(p, requested.empty());
+}
+
+bool Outputs::takesLayers() const {
+  return std::any_of(paths_.begin(), paths_.end(),
+                     [](const fs::path& p) { return p.extension() == ".exr"; });
 }
 
 void Outputs::write(const Film& film, const ImageMetadata& metadata) const {

@@ -18,6 +18,8 @@ class Outputs {
   Outputs(const std::vector<std::string>& requested, const Film& film);
 
   const std::vector<std::string>& paths() const { return paths_; }
+  /// Whether any of the files can hold layers (EXR).
+  bool takesLayers() const;
   void write(const Film& film, const ImageMetadata& metadata) const;
   /// Writes an image of what there is now and then: rarely enough to cost under 2 % of the time.
   void writePartial(const Film& film, const ImageMetadata& metadata, double seconds);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -49,7 +50,9 @@ class RenderSession {
   void passDone(const RenderProgress& progress);
   void saveCheckpoint(uint64_t nextSample);
   uint64_t render(Film& film, const RenderOptions& options);
-  ImageMetadata metadata(uint64_t samples) const;
+  ImageMetadata metadata(double samples) const;
+  void takeSnapshot(size_t number, const std::string& output, const RenderProgress& progress);
+  void warnOfMissedSnapshots();
 
   const RenderSettings& settings_;
   const std::string scene_;
@@ -111,18 +114,18 @@ void RenderSession::resume() {
 RenderOptions RenderSession::renderOptions() {
   RenderOptions o;
   o.firstSample = firstSample_;
-  o.sampleCount =
-      static_cast<uint64_t>(settings_.build.samplesPerPixel > 0 ? settings_.build.samplesPerPixel
-                                                                : job_->sampler->samplesPerPixel());
+  o.sampleCount = static_cast<uint64_t>(settings_.build.samplesPerPixel);
   o.seconds = settings_.seconds;
+  o.noise = settings_.noise;
+  for (const Snapshot& s : settings_.snapshots) o.stops.push_back(s.stop);
   o.cancel = &interruptFlag();
   return o;
 }
 
-ImageMetadata RenderSession::metadata(uint64_t samples) const {
+ImageMetadata RenderSession::metadata(double samples) const {
   // Nothing that differs between two runs of the same render: images are compared bit for bit.
   return {{"software", "Lampyris"},
-          {"samplesPerPixel", std::to_string(samples)},
+          {"samplesPerPixel", fmt::format("{:.10g}", samples)},
           {"seed", std::to_string(settings_.build.seed)}};
 }
 
@@ -133,11 +136,28 @@ void RenderSession::saveCheckpoint(uint64_t nextSample) {
 
 uint64_t RenderSession::render(Film& film, const RenderOptions& options) {
   RenderContext context{job_->scene, *job_->camera, *job_->sampler, film, options, statistics_};
-  const auto start = std::chrono::steady_clock::now();
   const uint64_t samples = job_->integrator->render(context);
-  report_.renderSeconds = secondsSince(start);
+  report_.renderSeconds = statistics_.value("render", "seconds");
   report_.interrupted = interruptFlag();
   return samples;
+}
+
+void RenderSession::takeSnapshot(size_t number, const std::string& output,
+                                 const RenderProgress& progress) {
+  const std::string& name = settings_.snapshots[number].name;
+  const std::string file = snapshotPath(output, name);
+  job_->film->write(file, metadata(progress.meanSamples));
+  report_.snapshots.push_back({name, progress.seconds, progress.meanSamples, file});
+}
+
+void RenderSession::warnOfMissedSnapshots() {
+  for (const Snapshot& s : settings_.snapshots) {
+    const bool taken = std::any_of(report_.snapshots.begin(), report_.snapshots.end(),
+                                   [&s](const TakenSnapshot& t) { return t.name == s.name; });
+    if (!taken)
+      diagnostics_.warn(
+          {}, fmt::format("snapshot \"{}\" was not taken: the render ended before it", s.name));
+  }
 }
 
 void RenderSession::renderImage(const Outputs& initial) {
@@ -152,12 +172,16 @@ void RenderSession::renderImage(const Outputs& initial) {
       saveCheckpoint(p.samplesDone);
       lastCheckpoint_ = p.seconds;
     }
-    outputs.writePartial(*job_->film, metadata(p.samplesDone), p.seconds);
+    outputs.writePartial(*job_->film, metadata(p.meanSamples), p.seconds);
+  };
+  options.onStop = [&](size_t number, const RenderProgress& p) {
+    takeSnapshot(number, outputs.paths().front(), p);
   };
   const uint64_t samples = render(*job_->film, options);
   line.clear();
   saveCheckpoint(samples);
-  outputs.write(*job_->film, metadata(samples));
+  warnOfMissedSnapshots();
+  outputs.write(*job_->film, metadata(statistics_.value("render", "samples per pixel")));
   report_.noise = job_->film->noise();
 }
 
@@ -181,6 +205,10 @@ int RenderSession::run() {
       renderPixel();
     } else {
       const Outputs outputs(settings_.outputs, *job_->film);
+      if (!job_->film->aovs().empty() && !outputs.takesLayers() && settings_.snapshots.empty())
+        diagnostics_.warn({},
+                          "layers are asked for, but only EXR files can hold them: "
+                          "add --out FILE.exr");
       if (!settings_.checkpoint.empty()) fingerprint_ = fingerprint();
       if (!settings_.resume.empty()) resume();
       renderImage(outputs);

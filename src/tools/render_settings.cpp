@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 
 namespace lampyris {
@@ -76,6 +77,15 @@ void check(const RenderSettings& s, bool cat, bool toPly) {
     throw UsageError("--out, --pixel, --stats, --checkpoint and --resume need a single scene file");
   if (s.pixel && !(s.resume.empty() && s.checkpoint.empty()))
     throw UsageError("--pixel renders no image that could be resumed");
+  if (s.pixel && !s.snapshots.empty())
+    throw UsageError("--pixel renders no image that snapshots could be taken of");
+  for (const Snapshot& snapshot : s.snapshots) {
+    const bool late = s.seconds > 0 && snapshot.stop.seconds > s.seconds;
+    const auto spp = static_cast<uint64_t>(s.build.samplesPerPixel);
+    if (late || (spp > 0 && snapshot.stop.samples > spp))
+      throw UsageError(fmt::format("--snapshots: \"{}\" is beyond {}", snapshot.name,
+                                   late ? "--seconds" : "--spp"));
+  }
   const auto& c = s.build.cropWindow;
   if (!c.empty() && !(c[0] < c[1] && c[2] < c[3]))
     throw UsageError("--crop: expected x0 x1 y0 y1 with x0 < x1 and y0 < y1");
@@ -85,7 +95,7 @@ void check(const RenderSettings& s, bool cat, bool toPly) {
 
 std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   RenderSettings s;
-  std::string pixel;
+  std::string pixel, snapshots, aovs;
   std::vector<std::string> defines;
   bool cat = false, toPly = false;
   CLI::App app("Lampyris renders pbrt-v3 scene files.", "lampyris");
@@ -94,8 +104,17 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   app.add_option("scene", s.scenes, "Scene files; - is standard input");
   app.add_option("--spp", s.build.samplesPerPixel, "Samples a pixel")
       ->check(CLI::Range(1, 1 << 30));
-  app.add_option("--seconds", s.seconds, "Render for this long, whatever the number of samples")
+  app.add_option("--seconds", s.seconds, "Render for this long; with --spp: or until it is reached")
       ->check(CLI::PositiveNumber);
+  app.add_option("--noise", s.noise,
+                 "Render until the estimated relative error is this, e.g. 0.01; with --spp or "
+                 "--seconds: or until that is reached")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--snapshots", snapshots,
+                 "Write OUT-NAME.exr on the way, at times and sample counts: 0.5s,1s or 1spp,4spp");
+  app.add_option("--aov", aovs,
+                 "Layers to write into EXR files, with commas between: albedo, normal, depth, "
+                 "samplecount, variance, lightcut, bsdfshare, lightentropy, pathlength, time");
   app.add_option("-o,--out,--outfile", s.outputs,
                  "Image to write (.exr, .png, .pfm …); may be given several times")
       ->expected(1)
@@ -132,6 +151,8 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   if (parseArguments(app, splitCrop(arguments))) return std::nullopt;
   if (!pixel.empty()) s.pixel = parsePixel(pixel);
   for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));
+  if (!snapshots.empty()) s.snapshots = parseSnapshots(snapshots);
+  if (!aovs.empty()) s.build.overrides.emplace_back("film.aovs", aovs);
   check(s, cat, toPly);
   if (s.checkpoint.empty()) s.checkpoint = s.resume;
   return s;

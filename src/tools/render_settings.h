@@ -9,6 +9,7 @@
 #include "core/vector.h"
 #include "scene/builder.h"
 #include "tools/arguments.h"
+#include "tools/snapshots.h"
 
 namespace lampyris {
 
@@ -17,7 +18,9 @@ struct RenderSettings {
   std::vector<std::string> outputs;
   BuildOptions build;
   double seconds = 0;  ///< > 0: render for this long
-  int threads = 0;     ///< 0: all
+  double noise = 0;    ///< > 0: render until the estimated relative error is no more than this
+  std::vector<Snapshot> snapshots;
+  int threads = 0;  ///< 0: all
   std::optional<Int2> pixel;
   std::string resume, checkpoint, statistics;
   double checkpointInterval = 60;

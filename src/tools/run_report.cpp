@@ -69,6 +69,10 @@ void writeStatistics(const std::string& path, const RunReport& report, const Sta
   json["seconds"] = {{"load", report.loadSeconds}, {"render", report.renderSeconds}};
   json["noise"] = std::isfinite(report.noise) ? nlohmann::ordered_json(report.noise) : nullptr;
   json["warnings"] = report.warnings;
+  json["snapshots"] = nlohmann::ordered_json::array();
+  for (const TakenSnapshot& t : report.snapshots)
+    json["snapshots"].push_back(
+        {{"name", t.name}, {"seconds", t.seconds}, {"spp", t.samplesPerPixel}, {"file", t.file}});
   for (const auto& e : s.entries()) {
     auto& figure = json["statistics"][e.section][e.name];
     if (e.text.empty())

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/statistics.h"
+#include "tools/snapshots.h"
 
 namespace lampyris {
 
@@ -14,6 +15,7 @@ struct RunReport {
   double loadSeconds = 0, renderSeconds = 0;
   double noise = 0;
   size_t warnings = 0;
+  std::vector<TakenSnapshot> snapshots;
 };
 
 /// For people: a few lines, with `verbose` all figures.

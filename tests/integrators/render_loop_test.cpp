@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "core/parallel.h"
 #include "support/tiny_scenes.h"
@@ -119,14 +121,78 @@ TEST(RenderLoop, CancelWithinAPassKeepsEachPixelsCount) {
   EXPECT_EQ(whole.film().save(), part.film().save());
 }
 
-TEST(RenderLoop, TimeLimitLeavesEqualCounts) {
+TEST(RenderLoop, TimeLimitLeavesNoPixelMoreThanOneSampleAhead) {
   TinyScene scene(tinyScene(view(), kWorld));
   RenderOptions options;
   options.seconds = 0.02;
   const uint64_t done = scene.render(options);
   EXPECT_GE(done, 1u);
+  uint64_t sum = 0;
   for (int y = 0; y < 33; ++y)
-    for (int x = 0; x < 33; ++x) EXPECT_EQ(scene.film().sampleCount({x, y}), done);
+    for (int x = 0; x < 33; ++x) {
+      const uint64_t count = scene.film().sampleCount({x, y});
+      EXPECT_TRUE(count == done || count == done + 1) << count;
+      sum += count;
+    }
+  EXPECT_DOUBLE_EQ(scene.statistics().value("render", "samples per pixel"),
+                   static_cast<double>(sum) / (33 * 33));
+  // Going on levels them, to the same bits as a render at once.
+  options = {};
+  options.firstSample = done;
+  options.sampleCount = done + 3;
+  EXPECT_EQ(scene.render(options), done + 3);
+  EXPECT_EQ(scene.statistics().value("render", "samples per pixel"), static_cast<double>(done + 3));
+  TinyScene whole(tinyScene(view(), kWorld));
+  whole.render(done + 3);
+  EXPECT_EQ(whole.film().save(), scene.film().save());
+}
+
+TEST(RenderLoop, StopsShowTheImageOfThatManySamples) {
+  TinyScene scene(tinyScene(view(), kWorld));
+  RenderOptions options;
+  options.sampleCount = 12;
+  options.stops = {{5, 0}, {0, 1e-9}, {12, 0}, {13, 0}};
+  std::vector<size_t> met;
+  options.onStop = [&](size_t stop, const RenderProgress& p) {
+    met.push_back(stop);
+    if (stop == 1) return;
+    EXPECT_EQ(p.meanSamples, static_cast<double>(options.stops[stop].samples));
+    TinyScene other(tinyScene(view(), kWorld));
+    other.render(p.samplesDone);
+    EXPECT_EQ(other.film().save(), scene.film().save());
+  };
+  scene.render(options);
+  EXPECT_EQ(met, (std::vector<size_t>{1, 0, 2}));
+}
+
+TEST(RenderLoop, ClockStandsStillWhileOthersLook) {
+  TinyScene scene(tinyScene(view(), kWorld));
+  RenderOptions options;
+  options.sampleCount = 4;
+  options.onPass = [](const RenderProgress&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  };
+  const auto start = std::chrono::steady_clock::now();
+  scene.render(options);
+  const double all =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  // 4 samples are three passes: 1, 1 and 2.
+  EXPECT_LE(scene.statistics().value("render", "seconds"), all - 3 * 0.06);
+}
+
+TEST(RenderLoop, RendersToANoise) {
+  TinyScene scene(tinyScene(view(), kWorld));
+  RenderOptions options;
+  options.noise = 0.02;
+  const uint64_t done = scene.render(options);
+  EXPECT_GE(done, 16u);
+  EXPECT_LE(scene.film().noise(), 0.02);
+  // A sample less for each eight is above it, so no more were taken than needed.
+  TinyScene fewer(tinyScene(view(), kWorld));
+  if (done > 16) {
+    fewer.render(done - done / 8 - 1);
+    EXPECT_GT(fewer.film().noise(), 0.02);
+  }
 }
 
 TEST(RenderLoop, PassesAreReportedInOrder) {
