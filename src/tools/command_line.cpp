@@ -25,6 +25,7 @@ constexpr std::array kCommands = {
     Command{"convert", runConvert},
     Command{"help-scene", runHelpScene},
     Command{"info", runInfo},
+    Command{"lights", runLights},
 };
 
 int run(Arguments arguments) {

@@ -13,6 +13,7 @@ int runRender(const Arguments& arguments);
 int runCompare(const Arguments& arguments);
 int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
+int runLights(const Arguments& arguments);
 int runHelpScene(const Arguments& arguments);
 
 /// The reference page of all scene parameters, in Markdown.

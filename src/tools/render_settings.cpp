@@ -16,6 +16,7 @@ Subcommands (each with --help):
   compare A B        how far an image is from a reference
   convert A B        an image in another format
   info FILE          what an image file holds
+  lights SCENE       what a scene's light tree looks like
   help-scene [KIND [NAME]]
                      what scene files may say
 

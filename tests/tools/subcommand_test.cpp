@@ -25,6 +25,19 @@ TEST_F(Subcommand, CompareTellsTheError) {
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.out.find("0.25"), std::string::npos) << r.out;
   EXPECT_TRUE(exists("error.png"));
+  EXPECT_EQ(run("compare a.pfm b.pfm --error-image error.exr").code, 0);
+  EXPECT_TRUE(exists("error.exr"));
+  const CommandResult json = run("compare a.pfm b.pfm --json");
+  EXPECT_EQ(json.code, 0);
+  EXPECT_TRUE(json.out.starts_with("{")) << json.out;
+  EXPECT_NE(json.out.find("\"mse\": 0.25"), std::string::npos) << json.out;
+  for (const char* other : {"b.exr", "b.hdr", "b.png"}) {
+    EXPECT_EQ(run("convert b.pfm " + std::string(other)).code, 0);
+    EXPECT_NE(run("compare b.pfm " + std::string(other)).out.find("MSE               0\n"),
+              std::string::npos)
+        << other;
+  }
+  EXPECT_EQ(run("compare a.pfm b.pfm --error-image error.txt").code, 2);
   writeGrey(path("c.pfm"), 6, 1);
   EXPECT_EQ(run("compare a.pfm c.pfm").code, 3);
   EXPECT_EQ(run("compare a.pfm missing.pfm").code, 3);
