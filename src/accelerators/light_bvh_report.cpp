@@ -68,6 +68,16 @@ std::vector<LightTreeNode> lightTreeNodes(const LightBVHAccel& tree, uint32_t ma
   return nodes;
 }
 
+std::vector<Vec3> someLightPositions(const LightBVHAccel& tree, size_t atMost) {
+  const size_t leaves = (tree.nodes().size() + 1) / 2;
+  const size_t step = std::max<size_t>((leaves + atMost - 1) / atMost, 1);
+  std::vector<Vec3> positions;
+  size_t leaf = 0;
+  for (const LinearLightBVHNode& node : tree.nodes())
+    if (node.isLeaf() && leaf++ % step == 0) positions.push_back(node.center());
+  return positions;
+}
+
 LightTreeReport reportLightTree(const LightBVHAccel& tree) {
   LightTreeReport r;
   r.bytes = tree.stats().bytes;

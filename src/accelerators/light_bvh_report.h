@@ -24,6 +24,9 @@ struct LightTreeNode {
 /// The nodes down to `maxDepth`, depth first, left children first.
 std::vector<LightTreeNode> lightTreeNodes(const LightBVHAccel& tree, uint32_t maxDepth);
 
+/// The centres of up to `atMost` leaves: every nth in the order of the tree.
+std::vector<Vec3> someLightPositions(const LightBVHAccel& tree, size_t atMost);
+
 struct LightTreeReport {
   size_t lights = 0, nodes = 0, leaves = 0, bytes = 0;
   uint32_t leastDepth = 0, mostDepth = 0;  ///< of leaves

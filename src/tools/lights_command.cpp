@@ -14,18 +14,8 @@ namespace lampyris {
 
 namespace {
 
-/// Positions that a picture marks at most; of more lights, every nth is taken.
+/// Positions that a picture marks at most.
 constexpr size_t kMarks = 3000;
-
-std::vector<Vec3> somePositions(const LightBVHAccel& tree) {
-  std::vector<Vec3> positions;
-  for (const LightTreeNode& n : lightTreeNodes(tree, ~uint32_t{0}))
-    if (n.leaf) positions.push_back(n.box.centroid());
-  const size_t step = positions.size() / kMarks + 1;
-  std::vector<Vec3> some;
-  for (size_t i = 0; i < positions.size(); i += step) some.push_back(positions[i]);
-  return some;
-}
 
 void writeText(const std::string& path, const std::string& text) {
   AtomicFile file(path);
@@ -49,7 +39,7 @@ void draw(const LightsSettings& s, const LightReport& report, const LightBVHAcce
                           "{} levels are shown",
                           t.lights, t.leastDepth, t.mostDepth, t.meanDepth, t.cost,
                           std::min(s.levels, t.mostDepth + 1));
-  writeText(s.out, lightTreeSvg({s.scene, caption, nodes, somePositions(tree)}));
+  writeText(s.out, lightTreeSvg({s.scene, caption, nodes, someLightPositions(tree, kMarks)}));
 }
 
 void report(const LightsSettings& s, SourceFiles& files, Diagnostics& diagnostics) {

@@ -62,6 +62,17 @@ TEST(LightBVHReport, FourLightsByHand) {
   EXPECT_EQ(lightTreeNodes(tree, 9).size(), 7u);
 }
 
+TEST(LightBVHReport, SomePositions) {
+  std::vector<LightBVHInput> lights;
+  for (LightId i = 0; i < 10; ++i) lights.push_back(pointLight(i, {static_cast<float>(i), 0, 0}));
+  const LightBVHAccel tree(lights);
+  EXPECT_EQ(someLightPositions(tree, 100).size(), 10u);
+  EXPECT_EQ(someLightPositions(tree, 10).size(), 10u);
+  EXPECT_EQ(someLightPositions(tree, 9).size(), 5u);
+  EXPECT_EQ(someLightPositions(tree, 1).size(), 1u);
+  EXPECT_TRUE(someLightPositions(LightBVHAccel(), 5).empty());
+}
+
 TEST(LightBVHReport, NarrowConesCostLess) {
   std::vector<LightBVHInput> lights = {pointLight(0, {0, 0, 0}), pointLight(1, {1, 0, 0})};
   const double wide = lightTreeNodes(LightBVHAccel(lights), 0)[0].cost;
