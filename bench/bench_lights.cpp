@@ -132,7 +132,11 @@ void sizes(benchmark::internal::Benchmark* b) {
   for (const int64_t kind : {kPoints, kTriangles})
     for (const int64_t n : {100, 10'000, 1'000'000}) b->Args({kind, n});
 }
-BENCHMARK(build)->Apply(sizes)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(build)
+    ->Apply(sizes)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK(sample)->Apply(sizes);
 BENCHMARK(pmf)->Apply(sizes);
 BENCHMARK(collapse)->Apply(sizes)->Unit(benchmark::kMillisecond);
