@@ -22,8 +22,8 @@ constexpr uint64_t kLeastNoiseSamples = 16;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// n as a count of samples, at least 1.
-uint64_t countOf(double n) { return static_cast<uint64_t>(std::clamp(n, 1., 1e15)); }
+/// n as a count of samples; 1 where it is less or no number.
+uint64_t countOf(double n) { return n > 1 ? static_cast<uint64_t>(std::min(n, 1e15)) : 1; }
 
 }  // namespace
 

@@ -2,10 +2,12 @@
 #include "tools/render_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace lampyris {
 
@@ -74,6 +76,9 @@ void check(const RenderSettings& s, bool cat, bool toPly) {
   if (s.scenes.empty()) throw UsageError("expected a scene file (or - for standard input)");
   const bool single = s.pixel || !s.resume.empty() || !s.checkpoint.empty() ||
                       !s.statistics.empty() || !s.outputs.empty();
+  // What CLI11 lets through: a NaN is not out of any range.
+  if (std::isnan(s.seconds) || std::isnan(s.noise))
+    throw UsageError("--seconds and --noise: expected a number above 0");
   if (s.scenes.size() > 1 && single)
     throw UsageError("--out, --pixel, --stats, --checkpoint and --resume need a single scene file");
   if (s.pixel && !(s.resume.empty() && s.checkpoint.empty()))
@@ -114,8 +119,8 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   app.add_option("--snapshots", snapshots,
                  "Write OUT-NAME.exr on the way, at times and sample counts: 0.5s,1s or 1spp,4spp");
   app.add_option("--aov", aovs,
-                 "Layers to write into EXR files, with commas between: albedo, normal, depth, "
-                 "samplecount, variance, lightcut, bsdfshare, lightentropy, pathlength, time");
+                 fmt::format("Layers to write into EXR files, with commas between: {}",
+                             fmt::join(kAovNames, ", ")));
   app.add_option("-o,--out,--outfile", s.outputs,
                  "Image to write (.exr, .png, .pfm …); may be given several times")
       ->expected(1)

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/image.h"
+#include "core/image_layers.h"
 #include "core/math.h"
 #include "film/film_registry.h"
 #include "film/filter_registry.h"
@@ -23,6 +24,7 @@ class ImageFilmTest : public testing::Test {
     std::vector<float> crop{};
     float scale = 1, maxLuminance = 0;
     std::string filename = "out.exr";
+    std::string aovs = "";
   };
 
   std::unique_ptr<Film> make(const Values& v) {
@@ -34,6 +36,8 @@ class ImageFilmTest : public testing::Test {
     p[1] = {"yresolution", {0, 11}, ParameterType::Integer, {}, y, {}};
     p[2] = {"scale", {0, 12}, ParameterType::Float, scale, {}, {}};
     p[3] = {"filename", {0, 13}, ParameterType::String, {}, {}, filename};
+    const std::string_view aovs[] = {v.aovs};
+    if (!v.aovs.empty()) p.push_back({"aovs", {0, 16}, ParameterType::String, {}, {}, aovs});
     if (!v.crop.empty()) p.push_back({"cropwindow", {0, 14}, ParameterType::Float, v.crop, {}, {}});
     if (v.maxLuminance > 0)
       p.push_back({"maxsampleluminance", {0, 15}, ParameterType::Float, luminance, {}, {}});
@@ -195,6 +199,52 @@ TEST_F(ImageFilmTest, DamagedCheckpointsAreRefused) {
   filter_ = filterRegistry().get("box", {}).create({}, {});
   // As many pixels, other bounds.
   EXPECT_FALSE(make({.x = 2, .y = 3})->restore(good));
+}
+
+TEST_F(ImageFilmTest, AovsByName) {
+  EXPECT_TRUE(make({})->aovs().empty());
+  const auto renew = [this] { filter_ = filterRegistry().get("box", {}).create({}, {}); };
+  renew();
+  const AovSet two = make({.aovs = "depth, time"})->aovs();
+  EXPECT_TRUE(two.has(Aov::Depth) && two.has(Aov::Time) && !two.has(Aov::Albedo));
+  for (const std::string_view name : kAovNames) {
+    renew();
+    EXPECT_FALSE(make({.aovs = std::string(name)})->aovs().empty()) << name;
+  }
+  renew();
+  EXPECT_NE(errorOf({.aovs = "depth,normals"}, 16).find("did you mean \"normal\""),
+            std::string::npos);
+}
+
+TEST_F(ImageFilmTest, AovsAreWrittenAndResumed) {
+  const Values values{.x = 3, .y = 2, .crop = {0.3f, 1, 0, 1}, .aovs = "pathlength"};
+  const auto film = make(values);
+  ASSERT_EQ(film->bounds(), (PixelBounds{{1, 0}, {3, 2}}));
+  fill(*film, 0, 2);
+  AovRecord record;
+  record.segments = 5;
+  film->addAovs({2, 1}, record);
+  const std::string path = testing::TempDir() + "lampyris_film_aovs.exr";
+  film->write(path, {});
+  const Image layer = readExrLayer(path, "pathlength");
+  EXPECT_EQ(layer.width(), 2);
+  EXPECT_EQ(layer.at(1, 1, 0), 2.5f);
+  EXPECT_EQ(layer.at(0, 1, 0), 0);
+  std::filesystem::remove(path);
+
+  const auto renew = [this] { filter_ = filterRegistry().get("box", {}).create({}, {}); };
+  const std::string saved = film->save();
+  renew();
+  const auto same = make(values);
+  EXPECT_TRUE(same->restore(saved));
+  EXPECT_EQ(same->save(), saved);
+  // As many sums, of another AOV; and fewer.
+  for (const char* aovs : {"time", ""}) {
+    renew();
+    Values other = values;
+    other.aovs = aovs;
+    EXPECT_FALSE(make(other)->restore(saved)) << aovs;
+  }
 }
 
 TEST_F(ImageFilmTest, NoiseIsTheRelativeStandardError) {

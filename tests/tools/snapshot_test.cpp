@@ -84,6 +84,9 @@ TEST_F(Snapshots, UsageErrors) {
   EXPECT_EQ(run("--pixel 1,1 --snapshots 2spp tiny.pbrt").code, 2);
   EXPECT_EQ(run("--noise 0 tiny.pbrt").code, 2);
   EXPECT_EQ(run("--noise little tiny.pbrt").code, 2);
+  for (const char* option : {"--noise", "--seconds"})
+    for (const char* value : {"nan", "inf", "-inf", ""})
+      EXPECT_EQ(run(std::string(option) + " '" + value + "' tiny.pbrt").code, 2) << option << value;
   EXPECT_EQ(run("--seconds -1 tiny.pbrt").code, 2);
 }
 
@@ -148,6 +151,16 @@ TEST_F(Snapshots, AovsOfDirectLighting) {
   EXPECT_EQ(readExrLayer(file, "lightcut").at(12, 8, 0), 2);  // all lights
   EXPECT_EQ(readExrLayer(file, "lightentropy").at(12, 8, 0), 0);
   EXPECT_NEAR(readExrLayer(file, "albedo").at(12, 8, 0), 0.6f, 1e-3f);
+}
+
+TEST_F(Snapshots, AovsThatTheSceneAsksFor) {
+  std::string text = scene();
+  text.insert(text.find("LookAt"), "  \"string aovs\" [\"depth\" \"normal\"]\n");
+  write("layers.pbrt", text);
+  EXPECT_EQ(run("-o out.exr layers.pbrt").code, 0);
+  EXPECT_EQ(exrLayerNames(path("out.exr").string()), (std::vector<std::string>{"N", "depth"}));
+  EXPECT_EQ(run("--aov depth -o out.exr layers.pbrt").code, 0);
+  EXPECT_EQ(exrLayerNames(path("out.exr").string()), (std::vector<std::string>{"depth"}));
 }
 
 TEST_F(Snapshots, AovErrors) {
