@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/bsdf.h"
-#include "core/sampling.h"
+#include "materials/cosine_sampling.h"
 
 namespace lampyris {
 
@@ -15,15 +15,9 @@ class LambertReflection final : public Lobe {
     scale = reflectance;
   }
   Rgb f(const Vec3&, const Vec3&) const override { return scale * kInvPi; }
-  float pdf(const Vec3& wo, const Vec3& wi) const override {
-    return sameHemisphere(wo, wi) ? cosineHemispherePdf(std::abs(wi.z)) : 0.f;
-  }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return cosinePdf(sideOf(wo), wi); }
   std::optional<LobeSample> sample(const Vec3& wo, float, const Vec2& u) const override {
-    Vec3 wi = sampleCosineHemisphere(u);
-    if (!(wi.z > 0)) return std::nullopt;
-    const float density = cosineHemispherePdf(wi.z);
-    if (wo.z < 0) wi.z = -wi.z;
-    return LobeSample{wi, scale * kInvPi, density, flags, 1};
+    return sampleCosine(*this, sideOf(wo), wo, u);
   }
   float albedo(const Vec3&) const override { return scale.luminance(); }
 };
@@ -35,15 +29,9 @@ class LambertTransmission final : public Lobe {
     scale = transmittance;
   }
   Rgb f(const Vec3&, const Vec3&) const override { return scale * kInvPi; }
-  float pdf(const Vec3& wo, const Vec3& wi) const override {
-    return wo.z * wi.z < 0 ? cosineHemispherePdf(std::abs(wi.z)) : 0.f;
-  }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return cosinePdf(-sideOf(wo), wi); }
   std::optional<LobeSample> sample(const Vec3& wo, float, const Vec2& u) const override {
-    Vec3 wi = sampleCosineHemisphere(u);
-    if (!(wi.z > 0)) return std::nullopt;
-    const float density = cosineHemispherePdf(wi.z);
-    if (wo.z > 0) wi.z = -wi.z;
-    return LobeSample{wi, scale * kInvPi, density, flags, 1};
+    return sampleCosine(*this, -sideOf(wo), wo, u);
   }
   float albedo(const Vec3&) const override { return scale.luminance(); }
 };

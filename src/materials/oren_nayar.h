@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/bsdf.h"
-#include "core/sampling.h"
+#include "materials/cosine_sampling.h"
 
 namespace lampyris {
 
@@ -24,15 +24,9 @@ class OrenNayar final : public Lobe {
     const float cosine = std::max(std::abs(wo.z), std::abs(wi.z));
     return scale * (kInvPi * (a_ + b_ * safeDivide(inPlane, cosine)));
   }
-  float pdf(const Vec3& wo, const Vec3& wi) const override {
-    return sameHemisphere(wo, wi) ? cosineHemispherePdf(std::abs(wi.z)) : 0.f;
-  }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return cosinePdf(sideOf(wo), wi); }
   std::optional<LobeSample> sample(const Vec3& wo, float, const Vec2& u) const override {
-    Vec3 wi = sampleCosineHemisphere(u);
-    if (!(wi.z > 0)) return std::nullopt;
-    const float density = cosineHemispherePdf(wi.z);
-    if (wo.z < 0) wi.z = -wi.z;
-    return LobeSample{wi, f(wo, wi), density, flags, 1};
+    return sampleCosine(*this, sideOf(wo), wo, u);
   }
   /// a_ is exact from above; from the side the second term adds what the first one lost.
   float albedo(const Vec3&) const override { return scale.luminance() * a_; }
