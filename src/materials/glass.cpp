@@ -38,10 +38,10 @@ class GlassMaterial final : public SurfaceMaterial {
     const Roughness roughness = roughness_(at);
     const float eta = refractiveIndex(eta_(at));
     // Without refraction facets bend nothing.
-    if (roughness.smooth || RoughDielectric::isInvisible(eta))
+    if (roughness.smooth || isInvisible(eta))
       bsdf.add<SmoothDielectric>(kr, kt, eta);
     else
-      bsdf.add<RoughDielectric>(kr, kt, roughness.facets, eta);
+      bsdf.add<RoughDielectric<>>(kr, kt, roughness.facets, eta);
   }
 
  private:

@@ -11,11 +11,10 @@
 namespace lampyris {
 
 /// `Fresnel` maps a cosine (negative below the surface) to a float or an Rgb.
-template <class Fresnel>
+template <class Fresnel, class Facets = TrowbridgeReitz>
 class MicrofacetReflection final : public Lobe {
  public:
-  MicrofacetReflection(const Rgb& reflectance, const TrowbridgeReitz& facets,
-                       const Fresnel& fresnel)
+  MicrofacetReflection(const Rgb& reflectance, const Facets& facets, const Fresnel& fresnel)
       : Lobe(kReflection | kGlossy), facets_(facets), fresnel_(fresnel) {
     scale = reflectance;
   }
@@ -54,7 +53,7 @@ class MicrofacetReflection final : public Lobe {
   float density(const Vec3& wo, const Vec3& m) const {
     return 0.25f * facets_.density(m) * facets_.visibilityOverCosine(wo);
   }
-  TrowbridgeReitz facets_;
+  Facets facets_;
   Fresnel fresnel_;
 };
 

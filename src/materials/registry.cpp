@@ -11,6 +11,7 @@
   PLUGIN(uber)                     \
   PLUGIN(substrate)                \
   PLUGIN(translucent)              \
-  PLUGIN(mixMaterial)
+  PLUGIN(mixMaterial)              \
+  PLUGIN(disney)
 
 LAMPYRIS_REGISTRY(materialRegistry, "material", MaterialRegistry, LAMPYRIS_MATERIALS)

@@ -13,21 +13,21 @@
 
 namespace lampyris {
 
+/// True if the index is so near 1 that the half vector of refraction drowns in rounding errors:
+/// light passes straight on then, within a milliradian, and a SmoothDielectric is to be used.
+inline bool isInvisible(float eta) { return std::abs(eta - 1) < 1e-3f; }
+
 /// `eta`: index below the surface in relation to above, not nearly 1. Either colour may be black.
+template <class Facets = TrowbridgeReitz>
 class RoughDielectric final : public Lobe {
  public:
-  RoughDielectric(const Rgb& reflectance, const Rgb& transmittance, const TrowbridgeReitz& facets,
-                  float eta)
+  RoughDielectric(const Rgb& reflectance, const Rgb& transmittance, const Facets& facets, float eta)
       : Lobe(static_cast<uint8_t>(kGlossy | (reflectance.isBlack() ? 0 : kReflection) |
                                   (transmittance.isBlack() ? 0 : kTransmission))),
         reflectance_(reflectance),
         transmittance_(transmittance),
         facets_(facets),
         eta_(eta) {}
-
-  /// True if the index is so near 1 that the half vector of refraction drowns in rounding errors:
-  /// light passes straight on then, within a milliradian, and a SmoothDielectric is to be used.
-  static bool isInvisible(float eta) { return std::abs(eta - 1) < 1e-3f; }
 
   Rgb f(const Vec3& wo, const Vec3& wi) const override {
     const auto e = event(wo, wi);
@@ -121,7 +121,7 @@ class RoughDielectric final : public Lobe {
   }
 
   Rgb reflectance_, transmittance_;
-  TrowbridgeReitz facets_;
+  Facets facets_;
   float eta_;
 };
 

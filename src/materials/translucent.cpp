@@ -43,7 +43,7 @@ class TranslucentMaterial final : public SurfaceMaterial {
     if (!diffuseR.isBlack()) bsdf.add<LambertReflection>(diffuseR);
     if (!diffuseT.isBlack()) bsdf.add<LambertTransmission>(diffuseT);
     if (!glossyR.isBlack() || !glossyT.isBlack())
-      bsdf.add<RoughDielectric>(glossyR, glossyT, roughness_(at).facets, kEta);
+      bsdf.add<RoughDielectric<>>(glossyR, glossyT, roughness_(at).facets, kEta);
   }
 
  private:

@@ -64,4 +64,14 @@ class TrowbridgeReitz {
   float ax_, ay_;
 };
 
+/// The same facets with masking and shadowing independent of each other (Walter et al. 2007, eq.
+/// 23): darker at grazing angles.
+class SeparableTrowbridgeReitz : public TrowbridgeReitz {
+ public:
+  using TrowbridgeReitz::TrowbridgeReitz;
+  float visibilityOver4Cosines(const Vec3& wo, const Vec3& wi) const {
+    return 0.25f * visibilityOverCosine(wo) * visibilityOverCosine(wi);
+  }
+};
+
 }  // namespace lampyris

@@ -138,7 +138,7 @@ TEST(MicrofacetReflection, IsTorranceAndSparrows) {
 
 TEST(RoughDielectric, IsWaltersRefraction) {
   const float ax = 0.3f, ay = 0.7f, index = 1.5f;
-  const RoughDielectric lobe(Rgb(0.8f), Rgb(0.5f), {ax, ay}, index);
+  const RoughDielectric<> lobe(Rgb(0.8f), Rgb(0.5f), {ax, ay}, index);
   int transmitted = 0;
   for (uint64_t i = 0; i < 4000; ++i) {
     const Vec3 wo = randomDirection(i, 0), wi = randomDirection(i, 2);

@@ -8,10 +8,19 @@ namespace lampyris::test {
 
 namespace {
 
+/// Notes what a model lacks.
+void describe(MaterialCase& c) {
+  c.reciprocal = c.plugin != "hair";
+  // Burley's terms are added up without regard for each other: rough white surfaces are too bright
+  // at grazing angles, and from below all light is mirrored beyond the critical angle as well.
+  if (c.plugin == "disney") c.largestAlbedo = 1.7f;
+}
+
 MaterialCase defaults(const std::string& plugin) {
   MaterialCase c{plugin, {}};
   if (plugin == "mix") c.parameters = {{"namedmaterial1", "diffuse"}, {"namedmaterial2", "mirror"}};
   if (plugin == "metal" || plugin == "translucent") c.subdivisions = 30;
+  describe(c);
   return c;
 }
 
@@ -26,7 +35,7 @@ std::string MaterialCase::label() const {
 std::vector<MaterialCase> materialCases() {
   std::vector<MaterialCase> all;
   for (const auto& e : materialRegistry().entries()) all.push_back(defaults(e.name));
-  const std::vector<MaterialCase> variants = {
+  std::vector<MaterialCase> variants = {
       {"matte", {{"Kd", "0.9 0.5 0"}, {"sigma", "20"}}},
       {"matte", {{"Kd", "@checks"}, {"sigma", "90"}}},
       {"plastic", {{"Kd", "0.1 0.6 0.2"}, {"Ks", "0.4 0.4 0.4"}, {"roughness", "0.3"}}},
@@ -56,7 +65,17 @@ std::vector<MaterialCase> materialCases() {
       {"mix", {{"namedmaterial1", "diffuse"}, {"namedmaterial2", "coat"}, {"amount", "0.3 0.5 1"}}},
       {"mix", {{"namedmaterial1", "rough glass"}, {"namedmaterial2", "coat"}}, 1.5f, 60},
       {"mix", {{"namedmaterial1", "mirror"}, {"namedmaterial2", "diffuse"}, {"amount", "0 0 0"}}},
+      {"disney", {{"color", "0.9 0.5 0.1"}, {"metallic", "0.7"}, {"anisotropic", "0.8"}}, 1.5f, 30},
+      {"disney", {{"sheen", "0.5"}, {"clearcoat", "1"}, {"clearcoatgloss", "0"}}, 1.5f, 40},
+      {"disney", {{"spectrans", "0.8"}, {"eta", "1.4"}, {"speculartint", "1"}}, 1.4f, 40},
+      {"disney", {{"spectrans", "1"}, {"eta", "1"}, {"color", "1 1 1"}}},
+      {"disney",
+       {{"thin", "true"}, {"spectrans", ".4"}, {"difftrans", ".8"}, {"flatness", ".6"}},
+       1.5f,
+       40},
+      {"disney", {{"color", "@checks"}, {"roughness", "@half"}, {"sheentint", "1"}}},
   };
+  for (MaterialCase& c : variants) describe(c);
   all.insert(all.end(), variants.begin(), variants.end());
   return all;
 }

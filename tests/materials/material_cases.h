@@ -17,6 +17,9 @@ struct MaterialCase {
   float eta = 1.5f;
   /// Quadrature points a cell and direction: more for narrow lobes.
   int subdivisions = 12;
+  bool reciprocal = true;
+  /// The largest albedo that the model itself has.
+  float largestAlbedo = 1;
 
   std::string label() const;
 };

@@ -23,8 +23,9 @@ Rgb albedo(const Bsdf& b, const Vec3& wo, uint8_t flags) {
 
 TEST(Materials, AllAreRegistered) {
   const auto names = materialRegistry().names();
-  const std::vector<std::string> expected = {"matte", "plastic",   "metal",       "mirror", "glass",
-                                             "uber",  "substrate", "translucent", "mix"};
+  const std::vector<std::string> expected = {"matte", "plastic", "metal",     "mirror",
+                                             "glass", "uber",    "substrate", "translucent",
+                                             "mix",   "disney"};
   EXPECT_EQ(names, expected);
 }
 

@@ -237,7 +237,6 @@ TEST(Builder, NamesOfPbrtThatAreNotThereYet) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {world("Shape \"cone\""), "3:1: \"cone\" is a pbrt-v3 shape" + yet},
       {world("Shape \"curve\""), "3:1: \"curve\" is a pbrt-v3 shape" + yet},
-      {world("Material \"disney\" " + t), "3:1: \"disney\" is a pbrt-v3 material" + yet},
       {world("Texture \"t\" \"color\" \"marble\" Material \"matte\" \"texture Kd\" \"t\" " + t),
        "3:1: \"marble\" is a pbrt-v3 texture" + yet},
       {"Camera \"realistic\" " + world(""), "1:1: \"realistic\" is a pbrt-v3 camera" + yet},
