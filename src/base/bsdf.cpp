@@ -47,10 +47,10 @@ class SideRule {
       : reflected_(geometricProduct > 0), consistent_(reflected_ == (shadingProduct > 0)) {}
 
   /// A lobe that does both tells reflection from transmission by the shading normal: where the
-  /// geometric one disagrees it must not count.
+  /// geometric one disagrees it must not count, unless it makes no difference between the two.
   bool allows(const Lobe& lobe) const {
     constexpr uint8_t kBoth = kReflection | kTransmission;
-    if ((lobe.flags & kBoth) == kBoth) return consistent_;
+    if ((lobe.flags & kBoth) == kBoth) return consistent_ || (lobe.flags & kAllAround);
     return lobe.flags & (reflected_ ? kReflection : kTransmission);
   }
 

@@ -23,7 +23,8 @@ enum LobeFlags : uint8_t {
   kTransmission = 2,
   kDiffuse = 4,
   kGlossy = 8,
-  kSpecular = 16,  ///< a Dirac delta: f() and pdf() are 0, only sample() sees it
+  kSpecular = 16,   ///< a Dirac delta: f() and pdf() are 0, only sample() sees it
+  kAllAround = 32,  ///< one function over the sphere: no side of the surface is excluded
 };
 
 /// A direction drawn from a lobe, in local coordinates.

@@ -12,6 +12,7 @@
   PLUGIN(substrate)                \
   PLUGIN(translucent)              \
   PLUGIN(mixMaterial)              \
-  PLUGIN(disney)
+  PLUGIN(disney)                   \
+  PLUGIN(hair)
 
 LAMPYRIS_REGISTRY(materialRegistry, "material", MaterialRegistry, LAMPYRIS_MATERIALS)

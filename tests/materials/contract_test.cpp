@@ -63,7 +63,9 @@ TEST_P(EveryMaterial, SamplesCarryTheValueAndDensityOfTheirDirection) {
       if (s->isSpecular()) continue;
       const Rgb f = bsdf_.f(wo, s->wi);
       // World space rounds the direction: narrow lobes notice, and 1 − F next to total reflection.
-      ASSERT_NEAR(f.luminance(), s->f.luminance(), 3e-3f * s->f.luminance() + 1e-6f) << angle;
+      // Hair divides by the cosine, which rounds as well.
+      const float slack = 3e-3f + 1e-6f / bsdf_.absCosTheta(s->wi);
+      ASSERT_NEAR(f.luminance(), s->f.luminance(), slack * s->f.luminance() + 1e-6f) << angle;
       ASSERT_NEAR(bsdf_.pdf(wo, s->wi), s->pdf, 3e-3f * s->pdf) << angle;
     }
   }

@@ -10,7 +10,9 @@ namespace {
 
 /// Notes what a model lacks.
 void describe(MaterialCase& c) {
-  c.reciprocal = c.plugin != "hair";
+  c.reciprocal =
+      c.plugin != "hair" && std::none_of(c.parameters.begin(), c.parameters.end(),
+                                         [](const auto& p) { return p.second == "hair"; });
   // Burley's terms are added up without regard for each other: rough white surfaces are too bright
   // at grazing angles, and from below all light is mirrored beyond the critical angle as well.
   if (c.plugin == "disney") c.largestAlbedo = 1.7f;
@@ -73,6 +75,9 @@ std::vector<MaterialCase> materialCases() {
        {{"thin", "true"}, {"spectrans", ".4"}, {"difftrans", ".8"}, {"flatness", ".6"}},
        1.5f,
        40},
+      {"hair", {{"sigma_a", "0 0 0"}, {"beta_m", "0.5"}, {"beta_n", "1"}, {"alpha", "0"}}},
+      {"hair", {{"color", "0.9 0.5 0.1"}, {"beta_m", "1"}, {"beta_n", "0.4"}, {"eta", "1.3"}}},
+      {"mix", {{"namedmaterial1", "hair"}, {"namedmaterial2", "diffuse"}}},
       {"disney", {{"color", "@checks"}, {"roughness", "@half"}, {"sheentint", "1"}}},
   };
   for (MaterialCase& c : variants) describe(c);
@@ -93,6 +98,7 @@ MaterialFixture::MaterialFixture(const MaterialCase& c) {
       {"mirror", {"mirror", {}}},
       {"coat", {"substrate", {{"uroughness", "0.3"}}}},
       {"rough glass", {"glass", {{"uroughness", "0.2"}, {"vroughness", "0.4"}}}},
+      {"hair", {"hair", {}}},
       {"everything", {"uber", {{"Kr", "1 1 1"}, {"Kt", "1 1 1"}, {"opacity", "0 0 0"}}}},
       {"bumpy", {"matte", {{"bumpmap", "@half"}}}},
   };
