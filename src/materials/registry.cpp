@@ -13,6 +13,7 @@
   PLUGIN(translucent)              \
   PLUGIN(mixMaterial)              \
   PLUGIN(disney)                   \
-  PLUGIN(hair)
+  PLUGIN(hair)                     \
+  PLUGIN(fourier)
 
 LAMPYRIS_REGISTRY(materialRegistry, "material", MaterialRegistry, LAMPYRIS_MATERIALS)

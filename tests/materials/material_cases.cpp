@@ -2,6 +2,7 @@
 #include "material_cases.h"
 
 #include "core/frame.h"
+#include "fourier_file.h"
 #include "materials/registry.h"
 
 namespace lampyris::test {
@@ -10,23 +11,28 @@ namespace {
 
 /// Notes what a model lacks.
 void describe(MaterialCase& c) {
-  c.reciprocal =
-      c.plugin != "hair" && std::none_of(c.parameters.begin(), c.parameters.end(),
-                                         [](const auto& p) { return p.second == "hair"; });
+  c.reciprocal = c.plugin != "hair" && c.plugin != "fourier" &&
+                 std::none_of(c.parameters.begin(), c.parameters.end(),
+                              [](const auto& p) { return p.second == "hair"; });
   // Burley's terms are added up without regard for each other: rough white surfaces are too bright
   // at grazing angles, and from below all light is mirrored beyond the critical angle as well.
   if (c.plugin == "disney") c.largestAlbedo = 1.7f;
 }
 
 MaterialCase defaults(const std::string& plugin) {
-  MaterialCase c{plugin, {}};
-  if (plugin == "mix") c.parameters = {{"namedmaterial1", "diffuse"}, {"namedmaterial2", "mirror"}};
+  MaterialCase c{plugin, neededParameters(plugin)};
   if (plugin == "metal" || plugin == "translucent") c.subdivisions = 30;
   describe(c);
   return c;
 }
 
 }  // namespace
+
+TestParameters::List neededParameters(const std::string& plugin) {
+  if (plugin == "mix") return {{"namedmaterial1", "diffuse"}, {"namedmaterial2", "mirror"}};
+  if (plugin == "fourier") return {{"bsdffile", paperFile()}};
+  return {};
+}
 
 std::string MaterialCase::label() const {
   std::string s = plugin;

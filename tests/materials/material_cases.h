@@ -25,6 +25,8 @@ struct MaterialCase {
 };
 /// What GoogleTest prints of it.
 inline void PrintTo(const MaterialCase& c, std::ostream* out) { *out << c.label(); }
+/// The parameters that have no default.
+TestParameters::List neededParameters(const std::string& plugin);
 /// The defaults of every registered material, then variants.
 std::vector<MaterialCase> materialCases();
 

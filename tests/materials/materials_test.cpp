@@ -25,7 +25,7 @@ TEST(Materials, AllAreRegistered) {
   const auto names = materialRegistry().names();
   const std::vector<std::string> expected = {"matte", "plastic", "metal",     "mirror",
                                              "glass", "uber",    "substrate", "translucent",
-                                             "mix",   "disney",  "hair"};
+                                             "mix",   "disney",  "hair",      "fourier"};
   EXPECT_EQ(names, expected);
 }
 
@@ -41,8 +41,10 @@ TEST(Materials, ConstantsNeedNoDifferentials) {
 TEST(Materials, BumpMapsNeedDetail) {
   for (const auto& e : materialRegistry().entries()) {
     if (e.name == "mix" || e.name == "hair") continue;
-    EXPECT_EQ(MaterialFixture(e.name, {})->detail(), SurfaceDetail::Basic);
-    EXPECT_EQ(MaterialFixture(e.name, {{"bumpmap", "@half"}})->detail(), SurfaceDetail::Full);
+    TestParameters::List parameters = neededParameters(e.name);
+    EXPECT_EQ(MaterialFixture(e.name, parameters)->detail(), SurfaceDetail::Basic);
+    parameters.emplace_back("bumpmap", "@half");
+    EXPECT_EQ(MaterialFixture(e.name, parameters)->detail(), SurfaceDetail::Full);
   }
   const TestParameters::List bumpyFirst = {{"namedmaterial1", "bumpy"},
                                            {"namedmaterial2", "mirror"}};
@@ -78,11 +80,8 @@ TEST(Materials, TexturesThatAreNoNumbersScatterNothingOdd) {
     for (const auto& d : e.schema.declarations()) {
       const bool colour = d.target == TargetType::RgbInput;
       if (!colour && d.target != TargetType::FloatInput) continue;
-      TestParameters::List parameters = {{d.name, colour ? "@nan colour" : "@nan"}};
-      if (e.name == "mix") {
-        parameters.emplace_back("namedmaterial1", "diffuse");
-        parameters.emplace_back("namedmaterial2", "coat");
-      }
+      TestParameters::List parameters = neededParameters(e.name);
+      parameters.emplace_back(d.name, colour ? "@nan colour" : "@nan");
       const MaterialFixture m(e.name, parameters);
       Bsdf b;
       m.evaluate(b);
