@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/bsdf.h"
+#include "base/bssrdf.h"
 #include "base/texture.h"
 
 namespace lampyris {
@@ -16,6 +17,13 @@ class Material {
   /// True if any parameter is a texture that filters over the pixel footprint, so that ray
   /// differentials are worth computing.
   virtual bool wantsDifferentials() const { return false; }
+  /// True if bssrdf() may answer.
+  virtual bool scattersBelow() const { return false; }
+  /// What becomes of light that the BSDF transmits at `at` (as evaluate() left it): made in
+  /// `storage`. Null: it goes on behind the surface.
+  virtual const Bssrdf* bssrdf(const SurfaceInteraction& at, BssrdfStorage& storage) const {
+    return (void)at, (void)storage, nullptr;
+  }
 };
 
 /// Finds named materials, for mixtures. Throws SceneError on an unknown name.

@@ -7,6 +7,7 @@
 
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
+#include "integrators/subsurface.h"
 
 namespace lampyris {
 
@@ -27,7 +28,8 @@ class PathEstimator final : public RadianceEstimator {
       : geometry_(*scene.geometry),
         lighting_(scene, LightStrategy::One, distribution),
         maxDepth_(settings.maxDepth),
-        rrThreshold_(settings.rrThreshold) {}
+        rrThreshold_(settings.rrThreshold),
+        scattersBelow_(scattersBelowSurfaces(scene)) {}
 
   Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
 
@@ -36,12 +38,17 @@ class PathEstimator final : public RadianceEstimator {
   static void addFound(Path& path, const RenderState& state, const Rgb& light);
   bool scatter(Path& path, SurfaceInteraction& at, const Material& material, SampleStream& stream,
                RenderState& state) const;
+  bool shade(Path& path, const SurfaceInteraction& at, const Material* material,
+             SampleStream& stream, RenderState& state) const;
+  bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material,
+                  const Bssrdf& bssrdf, SampleStream& stream, RenderState& state) const;
   bool survives(Path& path, SampleStream& stream) const;
 
   const Geometry& geometry_;
   const DirectLighting lighting_;
   const int maxDepth_;
   const float rrThreshold_;
+  const bool scattersBelow_;
 };
 
 struct PathEstimator::Path {
@@ -51,6 +58,8 @@ struct PathEstimator::Path {
   /// Undoes the change of radiance by refraction, so that roulette does not end paths for it.
   float etaScale = 1;
   int bounces = 0, interfaces = 0;
+  uint32_t vertices = 0;  ///< sets of dimensions taken; more than bounces below surfaces
+  uint32_t firstDimension() const { return kFirstPathDimension + vertices * kDimensionsPerVertex; }
   /// Set where light sampling at the last vertex could have found what the ray finds: `from` and
   /// `bsdfPdf` then say with which densities.
   bool weighed = false;
@@ -116,25 +125,29 @@ bool PathEstimator::survives(Path& path, SampleStream& stream) const {
   const float most = path.throughput.maxComponent() * path.etaScale;
   if (!(most < rrThreshold_)) return true;
   const float end = std::max(0.05f, 1 - most);
-  stream.setDimension(kFirstPathDimension +
-                      static_cast<uint32_t>(path.bounces) * kDimensionsPerVertex + kRouletteOffset);
+  stream.setDimension(path.firstDimension() + kRouletteOffset);
   if (stream.next1D() < end) return false;
   path.throughput /= 1 - end;
   return true;
 }
 
-/// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
 bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& material,
                             SampleStream& stream, RenderState& state) const {
-  Bsdf& bsdf = state.bsdf;
-  material.evaluate(at, bsdf);
-  if (bsdf.empty()) return false;
-  const uint32_t first =
-      kFirstPathDimension + static_cast<uint32_t>(path.bounces) * kDimensionsPerVertex;
-  if (state.aov && path.bounces == 0) {
+  material.evaluate(at, state.bsdf);
+  return !state.bsdf.empty() && shade(path, at, &material, stream, state);
+}
+
+/// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
+/// `material` is null where light has entered below a surface.
+bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Material* material,
+                          SampleStream& stream, RenderState& state) const {
+  const Bsdf& bsdf = state.bsdf;
+  const uint32_t first = path.firstDimension();
+  if (state.aov && path.vertices == 0) {
     stream.setDimension(first + 3);
     recordSurface(*state.aov, at, bsdf, stream);
   }
+  const bool below = scattersBelow_ && material && material->scattersBelow();
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
     path.from = LightSampleContext(at, bsdf);
@@ -147,7 +160,7 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
     if (state.aov) state.aov->lightSampled(light);
   }
   // Where rays find no light, the last one need not be traced.
-  if (path.bounces + 1 >= maxDepth_ && !lighting_.hasVisibleLights()) return false;
+  if (path.bounces + 1 >= maxDepth_ && !below && !lighting_.hasVisibleLights()) return false;
 
   stream.setDimension(first + 3);
   const Vec2 u = stream.next2D();
@@ -155,6 +168,11 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
   if (!s || !(s->pdf > 0) || s->f.isBlack()) return false;
   path.throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
   if (path.throughput.isBlack()) return false;
+  if (below && s->isTransmission()) {
+    BssrdfStorage storage;
+    if (const Bssrdf* bssrdf = material->bssrdf(at, storage))
+      return enterBelow(path, at, *material, *bssrdf, stream, state);
+  }
   if (s->isTransmission()) path.etaScale *= sqr(s->eta);
   path.weighed = !s->isSpecular();
   path.blind = false;
@@ -165,7 +183,26 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
   path.ray.d = s->wi;
   path.ray.tMax = kInfinity;
   ++path.bounces;
+  ++path.vertices;
   return true;
+}
+
+/// Goes on where light that leaves at `at` has entered the body. As in pbrt-v3 that is no bounce.
+bool PathEstimator::enterBelow(Path& path, const SurfaceInteraction& at, const Material& material,
+                               const Bssrdf& bssrdf, SampleStream& stream,
+                               RenderState& state) const {
+  ++path.vertices;
+  stream.setDimension(path.firstDimension());
+  const float uc = stream.next1D();
+  const Frame frame = state.bsdf.frame();
+  const auto entry = sampleSubsurfaceEntry(geometry_, material, bssrdf, at, frame, path.ray.time,
+                                           uc, stream.next2D(), state.rays);
+  if (!entry) return false;
+  path.throughput *= entry->weight;
+  ++path.vertices;
+  state.bsdf.reset(entry->at);
+  bssrdf.addEntryLobe(state.bsdf);
+  return shade(path, entry->at, nullptr, stream, state);
 }
 
 class PathIntegrator final : public Integrator {

@@ -3,6 +3,7 @@
 #include "materials/lambert.h"
 #include "materials/microfacet_reflection.h"
 #include "materials/rough_dielectric.h"
+#include "materials/separable_bssrdf.h"
 #include "materials/smooth_dielectric.h"
 #include "materials/surface_material.h"
 
@@ -69,8 +70,19 @@ class DisneyMaterial final : public SurfaceMaterial {
         specTrans_(input(c, p.specTrans)),
         flatness_(input(c, p.flatness)),
         diffTrans_(input(c, p.diffTrans)),
-        thin_(p.thin) {}
+        thin_(p.thin) {
+    if (!thin_) scatterDistance_ = input(c, p.scatterDistance);
+  }
 
+  bool scattersBelow() const override {
+    return !scatterDistance_.isConstant() || !scatterDistance_.value.isBlack();
+  }
+  const Bssrdf* bssrdf(const SurfaceInteraction& at, BssrdfStorage& storage) const override {
+    const Appearance a = appearance(at, share(specTrans_(at)));
+    const Rgb distance = reflectance(scatterDistance_(at));
+    if (!(a.diffuse > 0) || distance.isBlack()) return nullptr;
+    return storage.make<BurleyBssrdf>(a.diffuse * a.color, distance, a.eta);
+  }
   size_t maxLobes() const override { return 5; }
   void addLobes(const SurfaceInteraction& at, Bsdf& bsdf) const override {
     const float transmitted = share(specTrans_(at));
@@ -96,14 +108,17 @@ class DisneyMaterial final : public SurfaceMaterial {
     a.diffuse = (1 - a.metallic) * (1 - transmitted);
     return a;
   }
+  /// Subsurface scattering takes the place of the diffuse term: light enters by refraction.
   void addBase(const SurfaceInteraction& at, const Appearance& a, float thinTransmission,
                Bsdf& bsdf) const {
     if (!(a.diffuse > 0)) return;
+    const bool below = !reflectance(scatterDistance_(at)).isBlack();
+    if (below) bsdf.add<SmoothDielectric>(Rgb(), Rgb(1), a.eta);
     const Rgb weighed = a.diffuse * a.color;
     const float flat = thin_ ? share(flatness_(at)) : 0.f;
     const float sheen = reflectance(Rgb(sheen_(at))).r;
     DisneyBase::Colors c;
-    c.diffuse = weighed * ((1 - flat) * (1 - thinTransmission));
+    if (!below) c.diffuse = weighed * ((1 - flat) * (1 - thinTransmission));
     c.flat = weighed * (flat * (1 - thinTransmission));
     c.retro = weighed;
     if (sheen > 0) c.sheen = a.diffuse * sheen * lerp(share(sheenTint_(at)), Rgb(1), a.tint);
@@ -139,7 +154,7 @@ class DisneyMaterial final : public SurfaceMaterial {
     }
   }
 
-  TexturedRgb color_;
+  TexturedRgb color_, scatterDistance_;  ///< the second is black for thin sheets
   TexturedFloat metallic_, eta_, roughness_, specularTint_, anisotropic_, sheen_, sheenTint_;
   TexturedFloat clearcoat_, clearcoatGloss_, specTrans_, flatness_, diffTrans_;
   bool thin_;

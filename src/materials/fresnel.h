@@ -29,7 +29,20 @@ inline float fresnelDielectric(float cosI, float eta) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// The same for a conductor with the complex index eta + i k, from air, in one channel.
+/// Share of diffuse light that such a boundary reflects: Duntley 1942, "The Optical Properties of
+/// Diffusing Materials"; from the denser side by reciprocity.
+inline double fresnelDiffuse(double eta) {
+  if (std::abs(eta - 1) < 1e-4) return 0;
+  if (eta < 1) return 1 - (1 - fresnelDiffuse(1 / eta)) * eta * eta;
+  const double n2 = eta * eta, n4 = n2 * n2;
+  const double plus = n2 + 1, minus = n4 - 1;
+  return 0.5 + (eta - 1) * (3 * eta + 1) / (6 * sqr(eta + 1)) +
+         n2 * sqr(n2 - 1) / (plus * plus * plus) * std::log((eta - 1) / (eta + 1)) -
+         2 * n2 * eta * (n2 + 2 * eta - 1) / (plus * minus) +
+         8 * n4 * (n4 + 1) / (plus * minus * minus) * std::log(eta);
+}
+
+/// fresnelDielectric() for a conductor with the complex index eta + i k, from air, in one channel.
 /// 0 ≤ cosI ≤ 1; eta, k in [0, 1e6].
 inline float fresnelConductor(float cosI, float eta, float k) {
   const float cos2 = cosI * cosI, sin2 = std::max(0.f, 1 - cos2);

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materials/rough_dielectric.h"
-#include "materials/roughness.h"
-#include "materials/smooth_dielectric.h"
-#include "materials/surface_material.h"
+#include "materials/dielectric_boundary.h"
 
 namespace lampyris {
 namespace {
 
-struct GlassParameters : SurfaceParameters {
-  RgbInput kr = 1.f, kt = 1.f;
-  FloatInput eta = 1.5f, uRoughness = 0, vRoughness = 0;
-  bool remapRoughness = true;
+struct GlassParameters : SurfaceParameters, BoundaryParameters {
+  FloatInput eta = 1.5f;
   void declare(Declaration& d) {
-    d.add("Kr", kr, "Factor on the reflection.");
-    d.add("Kt", kt, "Factor on the transmission.");
     d.add("eta", eta, "Index of refraction inside.").alias("index").range(kMinEta, kMaxEta);
-    d.add("uroughness", uRoughness, "Roughness along u; smooth if both are 0.").atLeast(0);
-    d.add("vroughness", vRoughness, "Roughness along v; smooth if both are 0.").atLeast(0);
-    d.add("remaproughness", remapRoughness,
-          "Roughness is in [0, 1] and mapped to the microfacets' slope; else it is the slope.");
+    declareBoundary(d);
     declareSurface(d);
   }
 };
@@ -33,15 +23,8 @@ class GlassMaterial final : public SurfaceMaterial {
         roughness_(input(c, p.uRoughness), input(c, p.vRoughness), p.remapRoughness) {}
 
   void addLobes(const SurfaceInteraction& at, Bsdf& bsdf) const override {
-    const Rgb kr = reflectance(kr_(at)), kt = reflectance(kt_(at));
-    if (kr.isBlack() && kt.isBlack()) return;
-    const Roughness roughness = roughness_(at);
-    const float eta = refractiveIndex(eta_(at));
-    // Without refraction facets bend nothing.
-    if (roughness.smooth || isInvisible(eta))
-      bsdf.add<SmoothDielectric>(kr, kt, eta);
-    else
-      bsdf.add<RoughDielectric<>>(kr, kt, roughness.facets, eta);
+    addBoundary(reflectance(kr_(at)), reflectance(kt_(at)), roughness_(at),
+                refractiveIndex(eta_(at)), bsdf);
   }
 
  private:

@@ -37,6 +37,9 @@ class MixMaterial final : public SurfaceMaterial {
       : first_(find("namedmaterial1", p.first, c)),
         second_(find("namedmaterial2", p.second, c)),
         amount_(input(c, p.amount)) {
+    if (second_.scattersBelow())
+      c.diagnostics.warn(c.location,
+                         "material \"mix\": only the first material scatters below the surface");
     if (maxLobes() > Bsdf::kMaxLobes)
       throw SceneError(c.location,
                        fmt::format("this mixture has up to {} lobes, the limit is {}: mix fewer or "
@@ -49,6 +52,11 @@ class MixMaterial final : public SurfaceMaterial {
   bool wantsDifferentials() const override {
     return SurfaceMaterial::wantsDifferentials() || first_.wantsDifferentials() ||
            second_.wantsDifferentials();
+  }
+  /// As in pbrt-v3, what scatters below the surface is the first material alone.
+  bool scattersBelow() const override { return first_.scattersBelow(); }
+  const Bssrdf* bssrdf(const SurfaceInteraction& at, BssrdfStorage& storage) const override {
+    return first_.bssrdf(at, storage);
   }
   size_t maxLobes() const override { return first_.maxLobes() + second_.maxLobes(); }
 

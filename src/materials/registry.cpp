@@ -14,6 +14,8 @@
   PLUGIN(mixMaterial)              \
   PLUGIN(disney)                   \
   PLUGIN(hair)                     \
-  PLUGIN(fourier)
+  PLUGIN(fourier)                  \
+  PLUGIN(subsurface)               \
+  PLUGIN(kdSubsurface)
 
 LAMPYRIS_REGISTRY(materialRegistry, "material", MaterialRegistry, LAMPYRIS_MATERIALS)

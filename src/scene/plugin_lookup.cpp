@@ -19,7 +19,6 @@ struct KindNames {
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
       {"shape", "shape", {"cone", "paraboloid", "hyperboloid", "curve", "nurbs", "heightfield"}},
-      {"material", "material", {"subsurface", "kdsubsurface"}},
       {"float texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
       {"spectrum texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
       {"camera", "camera", {"realistic"}},

@@ -84,6 +84,9 @@ std::vector<MaterialCase> materialCases() {
       {"hair", {{"sigma_a", "0 0 0"}, {"beta_m", "0.5"}, {"beta_n", "1"}, {"alpha", "0"}}},
       {"hair", {{"color", "0.9 0.5 0.1"}, {"beta_m", "1"}, {"beta_n", "0.4"}, {"eta", "1.3"}}},
       {"mix", {{"namedmaterial1", "hair"}, {"namedmaterial2", "diffuse"}}},
+      {"disney", {{"scatterdistance", "1 0.5 0.1"}, {"sheen", "0.3"}}},
+      {"subsurface", {{"uroughness", "0.3"}, {"vroughness", "0.3"}, {"eta", "1.5"}}, 1.5f, 40},
+      {"kdsubsurface", {{"Kr", "0 0 0"}, {"Kd", "@checks"}}},
       {"disney", {{"color", "@checks"}, {"roughness", "@half"}, {"sheentint", "1"}}},
   };
   for (MaterialCase& c : variants) describe(c);
@@ -105,6 +108,7 @@ MaterialFixture::MaterialFixture(const MaterialCase& c) {
       {"coat", {"substrate", {{"uroughness", "0.3"}}}},
       {"rough glass", {"glass", {{"uroughness", "0.2"}, {"vroughness", "0.4"}}}},
       {"hair", {"hair", {}}},
+      {"skin", {"subsurface", {{"name", "Skin1"}}}},
       {"everything", {"uber", {{"Kr", "1 1 1"}, {"Kt", "1 1 1"}, {"opacity", "0 0 0"}}}},
       {"bumpy", {"matte", {{"bumpmap", "@half"}}}},
   };

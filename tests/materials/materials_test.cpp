@@ -23,9 +23,9 @@ Rgb albedo(const Bsdf& b, const Vec3& wo, uint8_t flags) {
 
 TEST(Materials, AllAreRegistered) {
   const auto names = materialRegistry().names();
-  const std::vector<std::string> expected = {"matte", "plastic", "metal",     "mirror",
-                                             "glass", "uber",    "substrate", "translucent",
-                                             "mix",   "disney",  "hair",      "fourier"};
+  const std::vector<std::string> expected = {
+      "matte",       "plastic", "metal",  "mirror", "glass",   "uber",       "substrate",
+      "translucent", "mix",     "disney", "hair",   "fourier", "subsurface", "kdsubsurface"};
   EXPECT_EQ(names, expected);
 }
 
