@@ -10,11 +10,17 @@ namespace lampyris {
 
 namespace {
 
-/// Points along the beam, drawn by extinction, stratified.
+/// Points along a beam for extinction 1, drawn by transmittance, stratified.
 constexpr int kBeamSamples = 100;
-
-/// Depth of the i-th point for extinction `sigmaT`.
-double beamDepth(int i, double sigmaT) { return -std::log(1 - (i + 0.5) / kBeamSamples) / sigmaT; }
+const std::array<double, kBeamSamples>& beamDepths() {
+  static const std::array<double, kBeamSamples> depths = [] {
+    std::array<double, kBeamSamples> all;
+    for (int i = 0; i < kBeamSamples; ++i)
+      all[static_cast<size_t>(i)] = -std::log(1 - (i + 0.5) / kBeamSamples);
+    return all;
+  }();
+  return depths;
+}
 
 double fresnel(double cosine, double eta) {
   return static_cast<double>(
@@ -60,7 +66,7 @@ struct Diffusion {
   /// (eqs. 11–14), with the paper's correction of near sources.
   double exitance(double depth, double r) const {
     const double image = -depth + 2 * mirror;
-    const double dr = std::hypot(r, depth), dv = std::hypot(r, image);
+    const double dr = std::sqrt(r * r + depth * depth), dv = std::sqrt(r * r + image * image);
     const double er = std::exp(-decay * dr), ev = std::exp(-decay * dv);
     const double phi = (er / dr - ev / dv) / (4 * M_PI * d);
     const double e = (depth * (1 + decay * dr) * er / (dr * dr * dr) -
@@ -73,7 +79,7 @@ struct Diffusion {
   double exitance(double r) const {
     if (!(transport > 0)) return 0;
     double sum = 0;
-    for (int i = 0; i < kBeamSamples; ++i) sum += exitance(beamDepth(i, transport), r);
+    for (const double depth : beamDepths()) sum += exitance(depth / transport, r);
     return sum / kBeamSamples;
   }
 };
@@ -94,9 +100,9 @@ double BeamDiffusion::single(double albedo, double r) const {
   // Nearer to the surface all light towards r is reflected back inside.
   const double first = r * safeSqrt(eta_ * eta_ - 1);
   double sum = 0;
-  for (int i = 0; i < kBeamSamples; ++i) {
-    const double depth = first + beamDepth(i, 1);
-    const double way = std::hypot(r, depth), cosine = depth / way;
+  for (const double below : beamDepths()) {
+    const double depth = first + below;
+    const double way = std::sqrt(r * r + depth * depth), cosine = depth / way;
     sum += albedo * std::exp(-(way + first)) / (way * way) * henyeyGreenstein(cosine, g_) *
            (1 - fresnel(-cosine, eta_)) * cosine;
   }

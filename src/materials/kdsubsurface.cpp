@@ -24,8 +24,7 @@ class KdSubsurfaceMaterial final : public DiffusionMaterial {
     const Rgb kd = reflectance(kd_(at)), mfp = scale() * reflectance(mfp_(at));
     const Rgb albedo(table().albedoOfReflectance(kd.r), table().albedoOfReflectance(kd.g),
                      table().albedoOfReflectance(kd.b));
-    // A mean free path of 0 leaves no distance to scatter over; a channel without extinction is
-    // what does not scatter at all.
+    // A mean free path of 0 counts as no medium at all: nothing comes out again.
     const Rgb sigmaT(safeDivide(1, mfp.r), safeDivide(1, mfp.g), safeDivide(1, mfp.b));
     return {sigmaT * (Rgb(1) - albedo), sigmaT * albedo};
   }

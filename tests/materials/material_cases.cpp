@@ -108,7 +108,7 @@ MaterialFixture::MaterialFixture(const MaterialCase& c) {
       {"coat", {"substrate", {{"uroughness", "0.3"}}}},
       {"rough glass", {"glass", {{"uroughness", "0.2"}, {"vroughness", "0.4"}}}},
       {"hair", {"hair", {}}},
-      {"skin", {"subsurface", {{"name", "Skin1"}}}},
+      {"skin", {"disney", {{"scatterdistance", "1 0.5 0.2"}}}},
       {"everything", {"uber", {{"Kr", "1 1 1"}, {"Kt", "1 1 1"}, {"opacity", "0 0 0"}}}},
       {"bumpy", {"matte", {{"bumpmap", "@half"}}}},
   };
