@@ -100,7 +100,7 @@ float SplineGrid::Row::at(const std::vector<float>& table, size_t y) const {
   for (size_t k = 0; k < 4; ++k) {
     // A weight of 0 may belong to a node that does not exist.
     if (weights_.weight[k] == 0) continue;
-    const auto x = static_cast<size_t>(weights_.first + static_cast<int>(k));
+    const auto x = weights_.node(k);
     sum += weights_.weight[k] * table[x * grid_->ys_.size() + y];
   }
   return sum;
@@ -111,8 +111,7 @@ float SplineGrid::Row::value(float y) const {
   if (!w) return 0;
   float sum = 0;
   for (size_t k = 0; k < 4; ++k)
-    if (w->weight[k] != 0)
-      sum += w->weight[k] * at(grid_->values_, static_cast<size_t>(w->first + static_cast<int>(k)));
+    if (w->weight[k] != 0) sum += w->weight[k] * at(grid_->values_, w->node(k));
   return sum;
 }
 

@@ -17,6 +17,8 @@ namespace lampyris {
 struct SplineWeights {
   int first = 0;
   std::array<float, 4> weight{};
+  /// The number of the k-th node; meaningless where its weight is 0.
+  size_t node(size_t k) const { return static_cast<size_t>(first) + k; }
 };
 /// None outside the nodes (and for NaN). `nodes`: at least two, ascending.
 std::optional<SplineWeights> splineWeights(std::span<const float> nodes, float x);

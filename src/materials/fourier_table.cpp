@@ -113,8 +113,8 @@ std::optional<FourierTable::Series> FourierTable::series(float muI, float muO) c
     for (size_t a = 0; a < 4; ++a) {
       const float weight = o->weight[b] * i->weight[a];
       if (weight == 0) continue;
-      const auto row = static_cast<size_t>(o->first + static_cast<int>(b));
-      const auto column = static_cast<size_t>(i->first + static_cast<int>(a));
+      const auto row = o->node(b);
+      const auto column = i->node(a);
       const Node& node = nodes_[row * mu_.size() + column];
       if (node.orders == 0) continue;
       s.terms_[s.count_++] = {&coefficients_[node.offset], node.orders, weight};
