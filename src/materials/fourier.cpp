@@ -32,8 +32,8 @@ class FourierLobe final : public Lobe {
 
     // Turned from wo's azimuth, then reversed: the table is in terms of where light goes.
     const Vec2 x = azimuthOf(wo);
-    const auto c = static_cast<float>(std::cos(azimuth->phi));
-    const auto s = static_cast<float>(std::sin(azimuth->phi));
+    const auto c = static_cast<float>(std::cos(*azimuth));
+    const auto s = static_cast<float>(std::sin(*azimuth));
     const float sine = std::sqrt(std::max(0.f, 1 - *muI * *muI));
     const Vec3 wi(-sine * (c * x.x - s * x.y), -sine * (s * x.x + c * x.y), -*muI);
     const float p = density(*row, series->value(0, static_cast<double>(c)));

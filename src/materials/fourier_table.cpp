@@ -150,16 +150,14 @@ size_t FourierTable::Series::coefficients(std::array<float, kMaxOrders>& out) co
   return orders_;
 }
 
-std::optional<AzimuthSample> sampleFourier(std::span<const float> a, float u) {
+std::optional<double> sampleFourier(std::span<const float> a, float u) {
   if (a.empty() || !(a[0] > 0)) return std::nullopt;
   // The series is even: one half of the circle is inverted, the other is its image.
   const bool mirrored = u >= 0.5f;
   const double half = mirrored ? 2 * static_cast<double>(u) - 1 : 2 * static_cast<double>(u);
-  double value = 0;
-  const auto integral = [&](double phi) {
+  const auto integral = [a](double phi) {
     const double c = std::cos(phi), s = std::sin(phi);
-    double sum = static_cast<double>(a[0]) * phi;
-    value = static_cast<double>(a[0]);
+    double sum = static_cast<double>(a[0]) * phi, value = static_cast<double>(a[0]);
     // Sine and cosine of kφ by rotation.
     double ck = c, sk = s;
     for (size_t k = 1; k < a.size(); ++k) {
@@ -173,10 +171,7 @@ std::optional<AzimuthSample> sampleFourier(std::span<const float> a, float u) {
     return std::pair(sum, value);
   };
   const double phi = solveIncreasing(integral, 0., M_PI, half * M_PI * static_cast<double>(a[0]));
-  integral(phi);
-  if (!(value > 0)) return std::nullopt;
-  return AzimuthSample{mirrored ? 2 * M_PI - phi : phi,
-                       value / (2 * M_PI * static_cast<double>(a[0]))};
+  return mirrored ? 2 * M_PI - phi : phi;
 }
 
 }  // namespace lampyris

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BSDFs that are tabulated by angles of elevation and hold the azimuth as a Fourier series: Jakob
 /// et al. 2014, "A Comprehensive Framework for Rendering Layered Materials", §4. Read from files of
-/// the published format "SCATFUN", as layer laboratories write them.
+/// the format "SCATFUN" that was published with it.
 #pragma once
 
 #include <array>
@@ -62,11 +62,7 @@ class FourierTable {
   float eta_ = 1;
 };
 
-/// An azimuth drawn in proportion to Σ a_k cos kφ, and the density by angle.
-struct AzimuthSample {
-  double phi, pdf;
-};
-/// `a`: at least one coefficient. None unless the mean a_0 is positive.
-std::optional<AzimuthSample> sampleFourier(std::span<const float> a, float u);
+/// An azimuth in [0, 2π] drawn with density Σ a_k cos kφ / (2π a_0). None unless a_0 is positive.
+std::optional<double> sampleFourier(std::span<const float> a, float u);
 
 }  // namespace lampyris

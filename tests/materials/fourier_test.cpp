@@ -83,10 +83,9 @@ TEST(Fourier, AzimuthsFollowTheSeries) {
     return sum;
   };
   for (uint64_t i = 0; i < kDraws; ++i) {
-    const auto s = sampleFourier(a, uniform(52, i, 0));
-    ASSERT_TRUE(s);
-    EXPECT_NEAR(s->pdf, value(s->phi) / (2 * M_PI), 1e-6);
-    ++observed[std::min<size_t>(static_cast<size_t>(s->phi / (2 * M_PI) * kCells), kCells - 1)];
+    const auto phi = sampleFourier(a, uniform(52, i, 0));
+    ASSERT_TRUE(phi);
+    ++observed[std::min<size_t>(static_cast<size_t>(*phi / (2 * M_PI) * kCells), kCells - 1)];
   }
   for (size_t c = 0; c < kCells; ++c)
     for (int k = 0; k < 10; ++k)
