@@ -190,7 +190,7 @@ void arcBounds(double radius, double phiMax, DVec2& min, DVec2& max) {
 }
 
 Roots quadraticRoots(double a, double halfB, double c, double discriminant) {
-  if (!(a > 0) || !(discriminant >= 0)) return {};
+  if (!(discriminant >= 0)) return {};
   const double q = -(halfB + std::copysign(std::sqrt(discriminant), halfB));
   Roots r;
   r.count = 2;

@@ -3,9 +3,12 @@
 
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_SHAPES(PLUGIN) \
+  PLUGIN(cone)                  \
   PLUGIN(cylinder)              \
   PLUGIN(disk)                  \
+  PLUGIN(hyperboloid)           \
   PLUGIN(loopsubdiv)            \
+  PLUGIN(paraboloid)            \
   PLUGIN(plymesh)               \
   PLUGIN(sphere)                \
   PLUGIN(trianglemesh)
