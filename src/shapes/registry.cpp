@@ -6,8 +6,10 @@
   PLUGIN(cone)                  \
   PLUGIN(cylinder)              \
   PLUGIN(disk)                  \
+  PLUGIN(heightfield)           \
   PLUGIN(hyperboloid)           \
   PLUGIN(loopsubdiv)            \
+  PLUGIN(nurbs)                 \
   PLUGIN(paraboloid)            \
   PLUGIN(plymesh)               \
   PLUGIN(sphere)                \
