@@ -18,7 +18,6 @@ struct KindNames {
 };
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
-      {"shape", "shape", {"curve"}},
       {"material", "material", {"disney", "hair", "fourier", "subsurface", "kdsubsurface"}},
       {"light", "light", {"projection", "goniometric"}},
       {"camera", "camera", {"realistic"}},

@@ -4,6 +4,7 @@
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_SHAPES(PLUGIN) \
   PLUGIN(cone)                  \
+  PLUGIN(curve)                 \
   PLUGIN(cylinder)              \
   PLUGIN(disk)                  \
   PLUGIN(heightfield)           \
