@@ -20,7 +20,6 @@ const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
       {"material", "material", {"disney", "hair", "fourier", "subsurface", "kdsubsurface"}},
       {"light", "light", {"projection", "goniometric"}},
-      {"camera", "camera", {"realistic"}},
       {"integrator",
        "integrator",
        {"volpath", "whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
