@@ -228,7 +228,7 @@ TEST(Builder, WarnsOnceOfWhatIsNotRenderedYet) {
   ASSERT_EQ(r.warnings.size(), 3u);
   EXPECT_NE(r.warnings[0].find("integrator \"volpath\" is not rendered yet"), std::string::npos);
   EXPECT_NE(r.warnings[1].find("participating media are not rendered yet"), std::string::npos);
-  EXPECT_NE(r.warnings[2].find("motion is not rendered yet"), std::string::npos);
+  EXPECT_NE(r.warnings[2].find("this stands where it is at the start time"), std::string::npos);
 }
 
 TEST(Builder, NamesOfPbrtThatAreNotThereYet) {
