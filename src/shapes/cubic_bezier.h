@@ -28,6 +28,12 @@ struct CubicBezier {
     const DVec3 q0 = mix(a, p[0], p[1]), q1 = mix(a, p[1], p[2]), q2 = mix(a, p[2], p[3]);
     return mix(c, mix(b, q0, q1), mix(b, q1, q2));
   }
+  /// Both halves, each over [0, 1] again (de Casteljau).
+  std::array<CubicBezier, 2> halves() const {
+    const DVec3 a = 0.5 * (p[0] + p[1]), b = 0.5 * (p[1] + p[2]), c = 0.5 * (p[2] + p[3]);
+    const DVec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), middle = 0.5 * (ab + bc);
+    return {{{{p[0], a, ab, middle}}, {{middle, bc, c, p[3]}}}};
+  }
   /// The piece between two parameters, over [0, 1] again.
   CubicBezier piece(double from, double to) const {
     return {{blossom(from, from, from), blossom(from, from, to), blossom(from, to, to),

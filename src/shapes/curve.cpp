@@ -41,6 +41,14 @@ struct CurveParameters {
   }
 };
 
+/// Less than asked for where boxes would fill the memory.
+uint32_t boundedDepth(float wanted, size_t segments) {
+  constexpr size_t kMostElements = size_t{1} << 24;
+  auto depth = static_cast<uint32_t>(wanted);
+  while (depth > 0 && (segments << depth) > kMostElements) --depth;
+  return depth;
+}
+
 class Curve final : public Shape {
  public:
   Curve(const CurveParameters& p, size_t segments, const ShapeContext& context)
@@ -49,7 +57,7 @@ class Curve final : public Shape {
         normals_(p.normals),
         segments_(segments),
         degree_(static_cast<size_t>(p.degree)),
-        splitDepth_(static_cast<uint32_t>(p.splitDepth)),
+        splitDepth_(boundedDepth(p.splitDepth, segments)),
         startWidth_(p.startWidth.value_or(p.width)),
         endWidth_(p.endWidth.value_or(p.width)),
         basis_(p.basis == "bezier" ? CurveBasis::Bezier : CurveBasis::BSpline),

@@ -11,6 +11,17 @@ namespace {
 using DVec2 = glm::dvec2;
 using DVec3 = glm::dvec3;
 
+/// Whether a ray's line misses the ball around the curve: the cheap answer for most boxes that rays
+/// meet.
+bool passesBall(const CubicBezier& c, double halfWidth, const DVec3& origin, const DVec3& w) {
+  const DVec3 centre = 0.5 * (c.p[0] + c.p[3]);
+  double radius2 = 0;
+  for (const DVec3& p : c.p) radius2 = std::max(radius2, glm::dot(p - centre, p - centre));
+  const DVec3 away = glm::cross(centre - origin, w);
+  const double reach = std::sqrt(radius2) + halfWidth;
+  return glm::dot(away, away) > reach * reach;
+}
+
 /// A frame with z along the ray and the chord of the curve in the plane of x and z: boxes of the
 /// curve's pieces are tight there.
 struct RayFrame {
@@ -49,7 +60,7 @@ class Search {
     double bend = 0;
     for (size_t i = 0; i < 2; ++i) {
       const DVec3 d = c.p[i] - 2. * c.p[i + 1] + c.p[i + 2];
-      bend = std::max(bend, std::hypot(d.x, d.y));
+      bend = std::max(bend, glm::length(DVec2(d)));
     }
     const double depth = 0.5 * std::log2(0.75 * bend / (0.05 * width));
     return static_cast<int>(std::ceil(std::clamp(depth, 0., 10.)));
@@ -69,8 +80,9 @@ class Search {
       return;
     }
     const double middle = 0.5 * (u0 + u1);
-    descend(c.piece(0, 0.5), u0, middle, depth - 1);
-    descend(c.piece(0.5, 1), middle, u1, depth - 1);
+    const auto halves = c.halves();
+    descend(halves[0], u0, middle, depth - 1);
+    descend(halves[1], middle, u1, depth - 1);
   }
 
   void meet(const CubicBezier& c, double u0, double u1) {
@@ -90,7 +102,7 @@ class Search {
     }
     const double u = u0 + t * (u1 - u0);
     const DVec3 p = c.point(t);
-    const double distance = std::hypot(p.x, p.y), width = segment_.widthSeen(u, direction_);
+    const double distance = glm::length(DVec2(p)), width = segment_.widthSeen(u, direction_);
     if (!(distance <= 0.5 * width) || !(p.z > 0 && p.z < zMax_) || !(width > 0)) return;
     const DVec3 along = c.derivative(t);
     const double side = p.x * along.y - p.y * along.x > 0 ? 1 : -1;
@@ -121,6 +133,7 @@ double CurveSegment::widthSeen(double u, const DVec3& w) const {
 std::optional<CurveHit> CurveSegment::intersect(double u0, double u1, const DVec3& origin,
                                                 const DVec3& w, double zMax) const {
   const CubicBezier piece = curve.piece(u0, u1);
+  if (passesBall(piece, 0.5 * std::max(width(u0), width(u1)), origin, w)) return std::nullopt;
   const RayFrame frame(w, piece.p[3] - piece.p[0]);
   CubicBezier local;
   for (size_t i = 0; i < 4; ++i) local.p[i] = frame.toLocal(piece.p[i] - origin);
