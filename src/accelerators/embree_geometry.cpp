@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <deque>
 #include <limits>
 #include <mutex>
 #include <new>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "accelerators/embree_callbacks.h"
+#include "accelerators/embree_motion.h"
 
 namespace lampyris {
 
@@ -173,9 +175,12 @@ class EmbreeGeometry final : public Geometry {
 
  private:
   void attachInstances();
+  GeometryHandle stillInstance(const ObjectInstance& instance, RTCScene object);
+  GeometryHandle movingInstance(const ObjectInstance& instance, RTCScene object, unsigned id);
 
   const GeometryDescription description_;
   std::vector<SceneHandle> objects_;
+  std::deque<embree::MovingInstance> moving_;  ///< Embree points to them
   SceneHandle scene_;
   Bounds3 bounds_;
   float rayLimit_ =
@@ -209,15 +214,30 @@ void EmbreeGeometry::attachInstances() {
       object = buildScene(primitives);
       commit(object.get());
     }
-    const GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry.get(), object.get());
-    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                            &toWorld.matrix()[0][0]);
+    const auto id = static_cast<unsigned>(description_.primitives.size() + i);
+    const GeometryHandle geometry = instance.motion.empty()
+                                        ? stillInstance(instance, object.get())
+                                        : movingInstance(instance, object.get(), id);
     rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene_.get(), geometry.get(),
-                          static_cast<unsigned>(description_.primitives.size() + i));
+    rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
     Device::instance().check();
   }
+}
+
+GeometryHandle EmbreeGeometry::stillInstance(const ObjectInstance& instance, RTCScene object) {
+  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry.get(), object);
+  rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                          &instance.instanceToWorld.matrix()[0][0]);
+  return geometry;
+}
+
+GeometryHandle EmbreeGeometry::movingInstance(const ObjectInstance& instance, RTCScene object,
+                                              unsigned id) {
+  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
+  embree::setMovingInstance(geometry.get(),
+                            moving_.emplace_back(&instance, object, id, kEmbreeLimit));
+  return geometry;
 }
 
 /// Embree includes both ends of its interval; 0 < t < tMax excludes them. False for rays that can
@@ -299,7 +319,7 @@ SurfaceInteraction EmbreeGeometry::surface(const Ray& ray, const Hit& hit,
   if (hit.instance == Hit::kNoInstance) {
     p.shape->surface(hit.element, hit.shape, ray, detail, at);
   } else {
-    const Transform& toWorld = description_.instances[hit.instance].instanceToWorld;
+    const Transform toWorld = description_.instances[hit.instance].toWorld(ray.time);
     const Transform toObject = toWorld.inverse();
     const Ray local{toObject.affinePoint(ray.o), toObject.vector(ray.d), ray.tMax, ray.time};
     p.shape->surface(hit.element, hit.shape, local, detail, at);

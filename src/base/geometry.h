@@ -5,6 +5,7 @@
 #include "base/light.h"
 #include "base/material.h"
 #include "base/shape.h"
+#include "core/animated_transform.h"
 
 namespace lampyris {
 
@@ -51,6 +52,15 @@ struct ObjectDefinition {
 struct ObjectInstance {
   uint32_t object = 0;        ///< index in the definitions
   Transform instanceToWorld;  ///< to be applied to the definition's coordinates
+  /// Not empty: it moves, and these count instead, the last one applied first.
+  std::vector<AnimatedTransform> motion{};
+
+  Transform toWorld(float time) const {
+    if (motion.empty()) return instanceToWorld;
+    Transform t = motion[0].at(time);
+    for (size_t i = 1; i < motion.size(); ++i) t = t * motion[i].at(time);
+    return t;
+  }
 };
 /// What a Geometry is built of.
 struct GeometryDescription {

@@ -6,7 +6,8 @@
 #define LAMPYRIS_CAMERAS(PLUGIN) \
   PLUGIN(perspectiveCamera)      \
   PLUGIN(orthographicCamera)     \
-  PLUGIN(environmentCamera)
+  PLUGIN(environmentCamera)      \
+  PLUGIN(realisticCamera)
 // clang-format on
 
 LAMPYRIS_REGISTRY(cameraRegistry, "camera", CameraRegistry, LAMPYRIS_CAMERAS)

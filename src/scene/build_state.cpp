@@ -25,9 +25,14 @@ const Transform& BuildState::transform(uint32_t index, SourceLocation where) con
   const TransformPair& pair = description.transforms[index];
   if (pair.isAnimated())
     diagnostics.warn(where,
-                     "motion is not rendered yet: everything stands where it is at the "
-                     "start of the shutter's time");
+                     "only shapes, instances and the camera move: this stands where it is at the "
+                     "start time");
   return pair.start;
+}
+
+AnimatedTransform BuildState::motion(uint32_t index) const {
+  const TransformPair& pair = description.transforms[index];
+  return {pair.start, description.transformTimes[0], pair.end, description.transformTimes[1]};
 }
 
 void parallelForEach(size_t count, size_t grain, const std::function<void(size_t)>& body) {

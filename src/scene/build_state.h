@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/animated_transform.h"
 #include "core/image.h"
 #include "scene/builder.h"
 #include "scene/description.h"
@@ -29,8 +30,10 @@ struct BuildState {
   SpectrumFiles spectra;
 
   BuildContext context(SourceLocation where) const { return {diagnostics, resolvePath, where}; }
-  /// The transform at the start of the shutter's time; warns where it moves.
+  /// The transform of what cannot move: at the start; warns where it would move.
   const Transform& transform(uint32_t index, SourceLocation where) const;
+  bool isAnimated(uint32_t index) const { return description.transforms[index].isAnimated(); }
+  AnimatedTransform motion(uint32_t index) const;
 };
 
 /// body(i) for i in [0, count) in parallel. Of several exceptions the one of the lowest i is

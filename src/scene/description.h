@@ -20,7 +20,7 @@ struct PluginUse {
   ParameterSet parameters{};
 };
 
-/// The current transform at the start and at the end of the shutter's time.
+/// The current transform at the two TransformTimes.
 struct TransformPair {
   Transform start, end;
   bool isAnimated() const { return !(start == end); }
@@ -85,7 +85,7 @@ struct Description {
   PluginUse camera, film, filter, sampler, integrator,
       accelerator;               ///< location unknown: not given
   uint32_t cameraTransform = 0;  ///< world to camera
-  float shutterTimes[2] = {0, 1};
+  float transformTimes[2] = {0, 1};
 
   std::vector<TransformPair> transforms{TransformPair{}};  ///< first the identity
   std::vector<TextureDefinition> textures;

@@ -18,10 +18,6 @@ struct KindNames {
 };
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
-      {"shape", "shape", {"cone", "paraboloid", "hyperboloid", "curve", "nurbs", "heightfield"}},
-      {"float texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
-      {"spectrum texture", "texture", {"dots", "fbm", "wrinkled", "marble", "windy", "ptex"}},
-      {"camera", "camera", {"realistic"}},
       {"integrator",
        "integrator",
        {"volpath", "whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
@@ -46,6 +42,10 @@ void failUnknownPlugin(const RegistryInfo& registry, std::string_view name, Sour
         std::find(k.names.begin(), k.names.end(), name) != k.names.end())
       throw SceneError(where, fmt::format("{} is a pbrt-v3 {} that Lampyris does not render yet",
                                           inQuotes(name), k.shownAs));
+  if (name == "ptex" && registry.kind().ends_with("texture"))
+    throw SceneError(where,
+                     "\"ptex\" is a pbrt-v3 texture that Lampyris cannot read: it is built without "
+                     "the Ptex library; bake the texture to an image and use \"imagemap\"");
   throw SceneError(where, fmt::format("unknown {} {}{}", registry.kind(), inQuotes(name),
                                       didYouMean(name.substr(0, 64), registry.names())));
 }

@@ -60,12 +60,18 @@ void ShapeBuilder::listShapes(std::vector<BuiltShape>& out) const {
     BuiltShape& s = out.emplace_back();
     s.description = &d.shapes[i];
     if (inObject) s.object = static_cast<uint32_t>(nextObject);
+    if (state_.isAnimated(s.description->transform)) s.motion = s.description->transform;
   }
 }
 
 void ShapeBuilder::planLight(const BuiltShape& shape, Plan& plan) {
   const ShapeDescription& d = *shape.description;
   if (d.areaLight == kNone) return;
+  if (shape.motion != kNone) {
+    state_.diagnostics.warn(d.plugin.parameters.location,
+                            "a shape that moves does not emit: its area light is ignored");
+    return;
+  }
   const PluginUse& use = state_.description.areaLights[d.areaLight];
   const SourceLocation where = use.parameters.location;
   plan.light = &lightFinder_.find(use.name, where);
@@ -120,11 +126,13 @@ void ShapeBuilder::create(BuiltShape& shape, const Plan& plan, std::unique_ptr<S
   const ShapeDescription& d = *shape.description;
   const SourceLocation where = d.plugin.parameters.location;
   const AppearanceBuilder::Resolver resolver(appearance_, d.order);
+  const Transform toWorld =
+      shape.motion == kNone ? state_.transform(d.transform, where) : Transform();
   out = plan.shape->create(plan.parameters,
-                           {state_.context(where), resolver, state_.transform(d.transform, where),
-                            d.reverseOrientation});
+                           {state_.context(where), resolver, toWorld, d.reverseOrientation});
   shape.primitive.shape = out.get();
   for (uint32_t e = 0; e < out->elementCount(); ++e) shape.bounds.extend(out->bounds(e));
+  if (shape.motion != kNone) shape.bounds = state_.motion(shape.motion).bounds(shape.bounds);
   if (!plan.light) return;
   shape.light = plan.light->create(
       plan.lightParameters,

@@ -14,9 +14,11 @@ namespace lampyris {
 struct BuiltShape {
   const ShapeDescription* description = nullptr;
   uint32_t object = kNone;  ///< in Description::objects; kNone: of the world
-  Primitive primitive;      ///< without firstLight until the lights have numbers
+  /// In Description::transforms, if the shape moves: it is built without its transform.
+  uint32_t motion = kNone;
+  Primitive primitive;  ///< without firstLight until the lights have numbers
   std::unique_ptr<Light> light;
-  Bounds3 bounds;
+  Bounds3 bounds;  ///< at all times
 };
 
 struct BuiltShapes {

@@ -105,8 +105,9 @@ void WorldParser::activeTransform() {
 
 void WorldParser::transformTimes() {
   const auto v = numbers<2>();
-  out_.shutterTimes[0] = v[0];
-  out_.shutterTimes[1] = v[1];
+  if (!(v[0] <= v[1])) fail("TransformTimes expects the earlier time first");
+  out_.transformTimes[0] = v[0];
+  out_.transformTimes[1] = v[1];
 }
 
 }  // namespace lampyris

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Film, camera and sampler: what looks at the scene.
+#include "cameras/moving_camera.h"
 #include "cameras/registry.h"
 #include "film/film_registry.h"
 #include "film/filter_registry.h"
@@ -65,10 +66,18 @@ void buildView(BuildState& state) {
 
   const Choice camera(state, cameraRegistry(), d.camera, "camera", "perspective");
   const ParameterSet cameraParameters = camera.parameters.set();
-  const Transform& worldToCamera = state.transform(d.cameraTransform, cameraParameters.location);
-  job.camera = camera.plugin->create(
-      cameraParameters, {state.context(cameraParameters.location), worldToCamera.inverse(),
-                         job.film->resolution(), filmSize.diagonal});
+  const uint32_t transform = d.cameraTransform;
+  const bool moves = state.isAnimated(transform);
+  const Transform cameraToWorld = moves ? Transform() : d.transforms[transform].start.inverse();
+  job.camera = camera.plugin->create(cameraParameters,
+                                     {state.context(cameraParameters.location), cameraToWorld,
+                                      job.film->resolution(), filmSize.diagonal});
+  if (moves) {
+    const TransformPair& pair = d.transforms[transform];
+    job.camera = std::make_unique<MovingCamera>(
+        std::move(job.camera), AnimatedTransform(pair.start.inverse(), d.transformTimes[0],
+                                                 pair.end.inverse(), d.transformTimes[1]));
+  }
 
   const Choice sampler(state, samplerRegistry(), d.sampler, "sampler", "bluenoise");
   job.sampler = sampler.plugin->create(

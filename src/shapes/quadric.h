@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What sphere, disk and cylinder share: a parametric surface in object space under an affine map.
+/// What spheres, disks, cylinders and cones share: a parametric surface in object space under an affine map.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -22,7 +22,7 @@ class Quadric : public Shape {
  public:
   Bounds3 bounds(uint32_t element) const final;
   void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
-               SurfaceInteraction& out) const final;
+               SurfaceInteraction& out) const override;
   float area(uint32_t element) const final { return (void)element, area_; }
   /// Uniform in object space, so by pdfArea() in world space.
   std::optional<ShapeSample> sampleArea(uint32_t element, const Vec2& u) const final;
@@ -64,6 +64,8 @@ class Quadric : public Shape {
   double similarity() const { return similarity_; }
   float orientation() const { return orientation_; }
   const glm::dmat3& matrix() const { return matrix_; }
+  /// Unit; turned over by ReverseOrientation.
+  Vec3 worldNormal(const DVec3& objectNormal) const;
 
   /// Bounds of the rounding error of a point of the shape, toWorld(·) rounded to float.
   Vec3 worldError(const Vec3& world) const {
@@ -75,7 +77,6 @@ class Quadric : public Shape {
   double meanAreaScale() const;
   void setBounds(const Extent& extent);
   double areaScale(const DVec3& objectNormal) const;
-  Vec3 worldNormal(const DVec3& objectNormal) const;
 
   glm::dmat3 matrix_{1}, toObject_{1};
   DVec3 translation_{0};
@@ -92,13 +93,14 @@ double azimuth(double x, double y);
 /// The box of the arc of a circle about the z axis with azimuth in [0, phiMax].
 void arcBounds(double radius, double phiMax, DVec2& min, DVec2& max);
 /// The parameters at which a t² + 2 halfB t + c = 0 in ascending order, given the discriminant
-/// halfB² − a c as precisely as the caller has it; without cancellation.
+/// halfB² − a c as precisely as the caller has it; without cancellation. Where a = 0 one of them is
+/// not finite.
 struct Roots {
   int count = 0;
   double t[2] = {0, 0};
 };
 inline Roots quadraticRoots(double a, double halfB, double c, double discriminant) {
-  if (!(a > 0) || !(discriminant >= 0)) return {};
+  if (!(discriminant >= 0)) return {};
   const double q = -(halfB + std::copysign(std::sqrt(discriminant), halfB));
   Roots r;
   r.count = 2;

@@ -88,7 +88,7 @@ class Checkerboard3D final : public Texture<T> {
   Checkerboard3D(const Textured<T>& even, const Textured<T>& odd, const TextureMapping3D& mapping)
       : even_(even), odd_(odd), mapping_(mapping) {}
   T evaluate(const SurfaceInteraction& at) const override {
-    const Vec3 p = mapping_.map(at);
+    const Vec3 p = mapping_.map(at).p;
     return (isOdd(p.x) != isOdd(p.y)) != isOdd(p.z) ? odd_(at) : even_(at);
   }
 

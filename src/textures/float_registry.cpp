@@ -8,7 +8,11 @@
   PLUGIN(mixFloatTexture)               \
   PLUGIN(bilerpFloatTexture)            \
   PLUGIN(imagemapFloatTexture)          \
-  PLUGIN(checkerboardFloatTexture)
+  PLUGIN(checkerboardFloatTexture)      \
+  PLUGIN(dotsFloatTexture)              \
+  PLUGIN(fbmFloatTexture)               \
+  PLUGIN(wrinkledFloatTexture)          \
+  PLUGIN(windyFloatTexture)
 
 LAMPYRIS_REGISTRY(floatTextureRegistry, "float texture", FloatTextureRegistry,
                   LAMPYRIS_FLOAT_TEXTURES)

@@ -9,7 +9,12 @@
   PLUGIN(bilerpSpectrumTexture)            \
   PLUGIN(imagemapSpectrumTexture)          \
   PLUGIN(uvSpectrumTexture)                \
-  PLUGIN(checkerboardSpectrumTexture)
+  PLUGIN(checkerboardSpectrumTexture)      \
+  PLUGIN(dotsSpectrumTexture)              \
+  PLUGIN(fbmSpectrumTexture)               \
+  PLUGIN(wrinkledSpectrumTexture)          \
+  PLUGIN(marbleSpectrumTexture)            \
+  PLUGIN(windySpectrumTexture)
 
 LAMPYRIS_REGISTRY(spectrumTextureRegistry, "spectrum texture", SpectrumTextureRegistry,
                   LAMPYRIS_SPECTRUM_TEXTURES)

@@ -49,12 +49,21 @@ class TextureMapping2D {
   Transform worldToTexture_;
 };
 
+/// A point of space and its change over one pixel.
+struct TexturePoint {
+  Vec3 p{0}, dpdx{0}, dpdy{0};
+
+  TexturePoint operator*(float scale) const { return {p * scale, dpdx * scale, dpdy * scale}; }
+};
+
 /// The point at which a texture over space is looked up. As in pbrt-v3 the world position goes
 /// through the texture's transform itself, not its inverse: scenes are made for that.
 class TextureMapping3D {
  public:
   explicit TextureMapping3D(const Transform& textureToWorld) : transform_(textureToWorld) {}
-  Vec3 map(const SurfaceInteraction& at) const { return transform_.point(at.p); }
+  TexturePoint map(const SurfaceInteraction& at) const {
+    return {transform_.point(at.p), transform_.vector(at.dpdx), transform_.vector(at.dpdy)};
+  }
 
  private:
   Transform transform_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "accelerators/light_bvh_importance.h"
+#include "accelerators/light_bvh.h"
 #include "light_maker.h"
 #include "shapes/registry.h"
 
@@ -89,7 +89,8 @@ TEST_F(LightUnits, EqualIntensityAndImportance) {
 
     const LightBounds b = *c.light->bounds(0);
     EXPECT_NEAR(b.intensity, luminance, 0.01f * luminance) << c.name;
-    const LinearLightBVHNode node(b.box, EmissionCone::of(b), b.intensity, true, 0);
+    const LightBVHAccel tree(std::vector<LightBVHInput>{{0, b}});
+    const LinearLightBVHNode& node = tree.nodes()[0];
     const double expected = static_cast<double>(luminance) / (kDistance * kDistance);
     EXPECT_NEAR(LightReceiver(wall).importance(node), expected, 0.01 * expected) << c.name;
     EXPECT_NEAR(LightReceiver(from, 0.f).importance(node), expected, 0.01 * expected) << c.name;

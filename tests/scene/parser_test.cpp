@@ -100,8 +100,8 @@ TEST(Parser, OptionsAndDefaults) {
   EXPECT_EQ(d.sampler.name, "halton");
   EXPECT_EQ(d.integrator.name, "path");
   EXPECT_EQ(d.filter.name, "box");
-  EXPECT_EQ(d.shutterTimes[0], .25f);
-  EXPECT_EQ(d.shutterTimes[1], .75f);
+  EXPECT_EQ(d.transformTimes[0], .25f);
+  EXPECT_EQ(d.transformTimes[1], .75f);
   EXPECT_FALSE(d.film.parameters.location.known());
   EXPECT_EQ(d.materials[0].plugin.name, "matte");
 }

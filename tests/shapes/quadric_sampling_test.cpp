@@ -46,6 +46,10 @@ TEST(QuadricSampling, AreaHasItsClosedForm) {
   const double c = 2, e = std::sqrt(1 - 1 / (c * c));
   EXPECT_NEAR(makeShape("sphere", {}, Transform::scale({1, 1, 2}))->area(0),
               2 * M_PI * (1 + c * std::asin(e) / e), 1e-4);
+  EXPECT_FLOAT_EQ(makeShape("cone", {})->area(0), kPi * std::sqrt(2.f));
+  EXPECT_NEAR(makeShape("paraboloid", {})->area(0), M_PI / 6 * (5 * std::sqrt(5.) - 1), 1e-5);
+  // A flat paraboloid is a disk.
+  EXPECT_NEAR(makeShape("paraboloid", Parameters().floats("zmax", {1e-6f}))->area(0), kPi, 1e-5f);
 }
 
 /// Where a sample says it is; nowhere at a cut's edge, which rounding may carry it past.

@@ -8,9 +8,8 @@ namespace lampyris::test {
 namespace {
 
 Vec3 outward(const QuadricCase& c, const Vec3& p) {
-  const Vec3 o = c.toWorld.inverse().point(p);
-  if (c.shape == "disk") return normalize(c.toWorld.normal({0, 0, 1}));
-  return normalize(c.toWorld.normal(c.shape == "sphere" ? o : Vec3(o.x, o.y, 0)));
+  const glm::dvec3 o(c.toWorld.inverse().point(p));
+  return normalize(c.toWorld.normal(Vec3(c.outward(o))));
 }
 
 SurfaceInteraction at(const Shape& shape, const Vec2& uv) {
@@ -40,7 +39,10 @@ TEST(QuadricSurface, HitsLieOnTheSurfaceAndAgreeWithTheRay) {
       EXPECT_LT(c.distance(glm::dvec3(o)), 1e-5);
       EXPECT_NEAR(length(s.n), 1, 1e-6f);
       EXPECT_GT(dot(s.n, outward(c, s.p)) * (c.reverse ? -1 : 1), 0.999f);
-      EXPECT_EQ(s.n, s.shading.n);
+      // pbrt-v3 shades hyperboloids with the normal of the turned line.
+      if (c.shape != "hyperboloid") {
+        EXPECT_EQ(s.n, s.shading.n);
+      }
       // Beyond tMax there is nothing.
       ray.tMax = hit->t;
       EXPECT_FALSE(shape->intersect(0, ray));
@@ -134,7 +136,7 @@ TEST(QuadricSurface, FarRaysStayPrecise) {
   }
 }
 
-TEST(QuadricSurface, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
+TEST(QuadricSurface, RaysThatLeaveDoNotMeetTheSurfaceAgainWhereTheyStart) {
   for (const float scale : {1e-4f, 1.f, 1e4f}) {
     for (const float far : {0.f, 1e5f}) {
       for (const QuadricCase& c : quadricCases()) {
@@ -149,13 +151,88 @@ TEST(QuadricSurface, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
                          s);
           Vec3 w = randomDirection(4, i, 2);
           if (c.shape != "disk") w = faceForward(w, s.n);
-          if (std::abs(dot(w, s.n)) < 1e-5f) continue;
-          const Ray ray{offsetRayOrigin(s.p, s.pError, s.n, w), w};
+          const bool convex = c.shape != "hyperboloid";
+          if (std::abs(dot(w, s.n)) < (convex ? 1e-5f : 1e-2f)) continue;
+          const float tMax = convex ? kInfinity : 1e-4f * shape->bounds(0).diagonal();
+          const Ray ray{offsetRayOrigin(s.p, s.pError, s.n, w), w, tMax};
           EXPECT_FALSE(shape->intersect(0, ray));
         }
       }
     }
   }
+}
+
+TEST(QuadricSurface, RevolvedParametersAreThoseOfPbrt) {
+  Parameters p;
+  p.floats("radius", {2}).floats("height", {4}).floats("phimax", {180});
+  const auto cone = makeShape("cone", p);
+  const auto onCone = cone->intersect(0, {{0, 5, 1}, {0, -1, 0}});
+  ASSERT_TRUE(onCone);
+  EXPECT_NEAR(onCone->t, 3.5f, 1e-6f);
+  EXPECT_NEAR(onCone->uv.x, 0.5f, 1e-6f);
+  EXPECT_NEAR(onCone->uv.y, 0.25f, 1e-6f);
+  // The other nappe is no part of it.
+  EXPECT_FALSE(cone->intersect(0, {{0, 5, 5}, {0, -1, 0}}));
+
+  Parameters q;
+  q.floats("radius", {2}).floats("zmin", {1}).floats("zmax", {4});
+  const auto paraboloid = makeShape("paraboloid", q);
+  const auto onParaboloid = paraboloid->intersect(0, {{0, -5, 2.25f}, {0, 1, 0}});
+  ASSERT_TRUE(onParaboloid);
+  EXPECT_NEAR(onParaboloid->t, 3.5f, 1e-6f);
+  EXPECT_NEAR(onParaboloid->uv.x, 0.75f, 1e-6f);
+  EXPECT_NEAR(onParaboloid->uv.y, 1.25f / 3, 1e-6f);
+  // A ray along the axis: the equation is linear.
+  EXPECT_FALSE(paraboloid->intersect(0, {{0.1f, 0, 9}, {0, 0, -1}}));
+  const auto along = paraboloid->intersect(0, {{1.5f, 0, 9}, {0, 0, -1}});
+  ASSERT_TRUE(along);
+  EXPECT_NEAR(along->t, 9 - 2.25f, 1e-6f);
+
+  Parameters h;
+  h.points("p1", {{1, -1, -1}}).points("p2", {{1, 1, 1}});
+  const auto hyperboloid = makeShape("hyperboloid", h);
+  // On the line itself u is 0 (or 1), wherever it stands.
+  for (const float z : {-0.9f, -0.2f, 0.7f}) {
+    const Vec3 target(1, z + 1e-5f, z), normal(1, z, -z);
+    const auto hit = hyperboloid->intersect(0, {target + normal, -normal});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->uv.x, 0, 1e-4f);
+    EXPECT_NEAR(hit->uv.y, (z + 1) / 2, 1e-4f);
+    // Symmetric about its waist: pbrt-v3's shading normal is that of the surface.
+    const SurfaceInteraction s = at(*hyperboloid, hit->uv);
+    EXPECT_GT(dot(s.shading.n, s.n), 0.99999f);
+    EXPECT_GT(dot(s.n, normalize(normal)), 0.9999f);
+  }
+}
+
+TEST(QuadricSurface, HyperboloidsAreShadedAsTheirTurnedLine) {
+  Parameters p;
+  p.points("p1", {{0.8f, 0, 0}}).points("p2", {{0.3f, 0.6f, 1.5f}});
+  const auto shape = makeShape("hyperboloid", p);
+  // At p1 the line comes nearer to the axis: 1.5 along z, −0.5 along the radius.
+  const SurfaceInteraction s = at(*shape, {0, 0});
+  EXPECT_LT(distance(s.shading.n, normalize(Vec3(1.5f, 0, 0.5f))), 1e-5f);
+  EXPECT_LT(distance(s.n, Vec3(1, 0, 0)), 1e-5f);
+}
+
+TEST(QuadricSurface, RevolvedShapesThatAreNothing) {
+  for (const float height : {0.f, -2.f})
+    EXPECT_FALSE(makeShape("cone", Parameters().floats("height", {height}))
+                     ->intersect(0, {{0, 5, 0.5f}, {0, -1, 0}}));
+  for (const char* name : {"cone", "paraboloid"}) {
+    const auto flat = makeShape(name, Parameters().floats("radius", {0}));
+    EXPECT_EQ(flat->area(0), 0) << name;
+    EXPECT_FALSE(flat->sampleArea(0, {0.5f, 0.5f}));
+    EXPECT_TRUE(flat->bounds(0).empty());
+  }
+  EXPECT_EQ(makeShape("paraboloid", Parameters().floats("zmax", {0}))->area(0), 0);
+  EXPECT_EQ(makeShape("hyperboloid", Parameters().points("p2", {{1, 1, 0}}))->area(0), 0);
+  // The default hyperboloid, a line through the origin, is a cone; pbrt-v3 never ends.
+  const auto cone = makeShape("hyperboloid", {});
+  EXPECT_NEAR(cone->area(0), kPi * std::sqrt(2.f) * std::sqrt(3.f), 1e-4f);
+  const auto hit = cone->intersect(0, {{0, 5, 0.5f}, {0, -1, 0}});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->t, 5 - std::sqrt(0.5f), 1e-5f);
 }
 
 TEST(QuadricSurface, BoundsAreTight) {
