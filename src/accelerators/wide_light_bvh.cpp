@@ -74,7 +74,9 @@ float WideLightBVH::pmf(const LightReceiver& at, LightId light) const {
 float WideLightBVH::rootImportance(const LightReceiver& at) const {
   if (nodes_.empty() || !at.receives()) return 0;
   const ChildWeights weights = importances(nodes_[0], at);
-  const double irradiance = weights.total() * weights.unit * static_cast<double>(strongest_);
+  const double unit = static_cast<double>(nodes_[0].invExtent) * static_cast<double>(strongest_);
+  const double irradiance = weights.total() * unit * static_cast<double>(nodes_[0].invExtent) /
+                            static_cast<double>(weights.unit2);
   return static_cast<float>(std::min(irradiance, static_cast<double>(FLT_MAX)));
 }
 

@@ -41,7 +41,7 @@ struct Geometry {
   Geometry(const WideLightBVHNode& node, const Vec3& p) {
     // Beyond this, squares overflow and directions no longer change.
     constexpr float kFar = 1e18f;
-    receiver = glm::clamp((p - node.origin) / node.extent, Vec3(-kFar), Vec3(kFar));
+    receiver = glm::clamp((p - node.origin) * node.invExtent, Vec3(-kFar), Vec3(kFar));
     constexpr float kStep = 1.f / 65535, kByte = 1.f / 255;
     toCenter = {load(node.center[0]) * kStep - receiver.x,
                 load(node.center[1]) * kStep - receiver.y,
@@ -56,24 +56,28 @@ struct Geometry {
   }
 };
 
-/// See LightReceiver::meanSquaredDistance().
-Float8 meanSquaredDistance(const Geometry& g) {
+/// The square of LightReceiver::meanSquaredDistance(), relative to `unit2` squared: neither end of
+/// the floats is near, however far the receiver is.
+[[gnu::always_inline]] inline Float8 meanDistance4(const Geometry& g, float unit2) {
   const auto beyond = [](const Float8& d, const Float8& half) {
     return stdx::max(abs(d) - half, Float8(0));
   };
   const Vec3x8 toBox{beyond(g.toCenter.x, g.half.x), beyond(g.toCenter.y, g.half.y),
                      beyond(g.toCenter.z, g.half.z)};
   const Float8 least = stdx::max(g.r2 * LightReceiver::kNearest2, Float8(kLeastD2));
-  // The root of the factors, since their product may leave the range of floats.
-  return sqrt(stdx::max(dot(toBox, toBox), least)) * sqrt(stdx::max(g.d2 + g.r2, least));
+  const float scale = 1 / unit2;
+  return (stdx::max(dot(toBox, toBox), least) * scale) * (stdx::max(g.d2 + g.r2, least) * scale);
 }
 
-/// cos of max(0, θ − θb): a bound.
-Float8 relax(const Float8& cosine, const Float8& sine2, const Float8& cosB, const Float8& sine2B) {
-  Float8 relaxed = cosine * cosB + sqrt(stdx::max(sine2 * sine2B, Float8(0)));
-  where(cosine >= cosB || cosB <= 0, relaxed) = 1;
-  return relaxed;
-}
+/// The angle θb that the bounding spheres subtend; within one lights may lie in any direction.
+struct Uncertainty {
+  Float8 cosine, sine;
+  Uncertainty(const Geometry& g, const Float8& invLength)
+      : sine(stdx::min(sqrt(g.r2) * invLength, Float8(1))) {
+    cosine = sqrt(1 - sine * sine);
+    where(g.d2 <= g.r2, cosine) = 0;
+  }
+};
 
 /// meanCosine() and meanAbsCosine().
 struct MeanCosine {
@@ -86,21 +90,21 @@ struct MeanCosine {
 };
 Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
 
-Float8 receiverFactor(const LightReceiver& at, const Geometry& g, const Float8& invLength,
-                      const Float8& cosB) {
+[[gnu::always_inline]] inline Float8 receiverFactor(const LightReceiver& at, const Geometry& g,
+                                                    const Float8& invLength, const Uncertainty& b) {
   Float8 cosine =
       stdx::clamp(dot(at.shadingNormal(), g.toCenter) * invLength, Float8(-1), Float8(1));
   if (!at.bothSides()) where(cosine < 0 && dot(at.side(), g.toCenter) >= 0, cosine) = -cosine;
-  const MeanCosine mean(cosine, capMeans(cosB));
+  const MeanCosine mean(cosine, capMeans(b.cosine));
   return stdx::max(at.bothSides() ? mean.absolute : mean.clamped, Float8(LightReceiver::kFloor));
 }
 
 /// 0 where nothing is emitted towards the receiver.
-Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g, const Float8& cosB,
-                      const Float8& sine2B) {
+[[gnu::always_inline]] inline Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g,
+                                                    const Float8& invLength, const Uncertainty& b) {
   const Vec3x8 axis{load(node.axis[0]), load(node.axis[1]), load(node.axis[2])};
-  // Lanes without an axis, and those at the point, divide by zero; they are overwritten below.
-  Float8 cosine = -dot(axis, g.toCenter) / sqrt(dot(axis, axis) * stdx::max(g.d2, g.r2));
+  // Lanes without an axis divide by zero; they are overwritten below.
+  Float8 cosine = dot(axis, g.toCenter) * invLength / -sqrt(dot(axis, axis));
   const auto twoSided = lanesOf(node.twoSided);
   where(twoSided, cosine) = abs(cosine);
   const Float8 sine = sqrt(stdx::max(1 - cosine * cosine, Float8(0)));
@@ -108,16 +112,17 @@ Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g, const Flo
   const Float8 cosO = 1 - 2 * h * h, sinO = 2 * h * sqrt(stdx::max(1 - h * h, Float8(0)));
   const Float8 cosE = load(node.cosineE) * (1.f / 127) - 1;
 
-  const MeanCosine mean(cosine, capMeans(cosO) * capMeans(cosB));
+  const MeanCosine mean(cosine, capMeans(cosO) * capMeans(b.cosine));
   Float8 factor = mean.clamped;
   where(twoSided, factor) = mean.absolute;
   Float8 least = LightReceiver::kFloor;
   where(cosE < -1e-3f, least) = LightReceiver::kWideEmissionFloor;
   factor = stdx::max(factor, least);
 
-  const Float8 sineX = sine * cosO - cosine * sinO;
-  const Float8 bound = relax(cosine * cosO + sine * sinO, sineX * sineX, cosB, sine2B);
-  where(cosine < cosO && bound < cosE - 1e-4f, factor) = 0;
+  // Beyond θo by x, by x − θb at least: nothing is emitted where that is more than θe.
+  const Float8 cosX = cosine * cosO + sine * sinO, sineX = sine * cosO - cosine * sinO;
+  const auto beyond = cosine < cosO && cosX < b.cosine && b.cosine > 0;
+  where(beyond && cosX * b.cosine + sineX * b.sine < cosE - 1e-4f, factor) = 0;
   where(lanesOf(node.allNormals), factor) = 1;
   return factor;
 }
@@ -128,37 +133,34 @@ Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g, const Flo
 // unasked.
 [[gnu::flatten]] ChildWeights importances(const WideLightBVHNode& node, const LightReceiver& at) {
   const Geometry g(node, at.position());
-  const Float8 inv2 = 1 / stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2)));
-  const Float8 invLength = sqrt(inv2);
-  const Float8 sine2B = stdx::min(g.r2 * inv2, Float8(1));
-  Float8 cosB = sqrt(1 - sine2B);
-  // Within the sphere lights may lie in any direction.
-  where(g.d2 <= g.r2, cosB) = 0;
+  const Float8 invLength = 1 / sqrt(stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2))));
+  const Uncertainty uncertainty(g, invLength);
   Float8 factor = 1;
-  if (at.hasSurface()) factor = receiverFactor(at, g, invLength, cosB);
-  if (node.allNormals != 0xff) factor *= emissionFactor(node, g, cosB, sine2B);
+  if (at.hasSurface()) factor = receiverFactor(at, g, invLength, uncertainty);
+  if (node.allNormals != 0xff) factor *= emissionFactor(node, g, invLength, uncertainty);
   if (!at.bothSides()) {
     // The box's corner furthest in front; some ulps for the rounding of the terms.
     const Vec3 n = glm::abs(at.side());
     const Float8 size = n.x * abs(g.toCenter.x) + n.y * abs(g.toCenter.y) + n.z * abs(g.toCenter.z);
     where(dot(at.side(), g.toCenter) + dot(n, g.half) < -1e-6f * size, factor) = 0;
   }
-  // The distance as the unit far from the node: neither end of the floats is near.
-  const float unit2 = std::max(1.f, glm::dot(g.receiver, g.receiver));
+  ChildWeights out;
+  out.unit2 = std::max(1.f, glm::dot(g.receiver, g.receiver));
   // Intensities are the upper halves of floats: moved there, they are floats.
   alignas(32) WideLightBVHNode::Lanes<uint32_t> bits;
   for (size_t i = 0; i < bits.size(); ++i) bits[i] = static_cast<uint32_t>(node.intensity[i]) << 16;
   const Float8 intensity(std::bit_cast<WideLightBVHNode::Lanes<float>>(bits).data(),
                          stdx::element_aligned);
-  Float8 weights = intensity * factor * unit2 / meanSquaredDistance(g);
+  Float8 weights = intensity * factor / sqrt(meanDistance4(g, out.unit2));
   where(!(weights > 0), weights) = 0;  // not a number: the point isn't one either
-
-  ChildWeights out;
   weights.copy_to(out.of.data(), stdx::vector_aligned);
-  double sum = 0;
-  for (size_t i = 0; i < out.of.size(); ++i) out.upTo[i] = sum += static_cast<double>(out.of[i]);
-  const auto extent = static_cast<double>(node.extent);
-  out.unit = 1 / (extent * extent * static_cast<double>(unit2));
+
+  // By twos and fours, which waits less than one after the other does.
+  std::array<double, 8> w;
+  for (size_t i = 0; i < w.size(); ++i) w[i] = static_cast<double>(out.of[i]);
+  const double w01 = w[0] + w[1], w23 = w[2] + w[3], w03 = w01 + w23;
+  const double w45 = w[4] + w[5], w67 = w[6] + w[7], w05 = w03 + w45;
+  out.upTo = {w[0], w01, w01 + w[2], w03, w03 + w[4], w05, w05 + w[6], w05 + w67};
   return out;
 }
 

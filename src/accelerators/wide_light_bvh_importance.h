@@ -13,9 +13,8 @@ struct ChildWeights {
   alignas(32) std::array<float, WideLightBVHNode::kWidth> of;
   /// Sums up to and with each.
   std::array<double, WideLightBVHNode::kWidth> upTo;
-  /// Turns total() × the strongest child's intensity into an irradiance, see
-  /// LightBVHAccel::rootImportance().
-  double unit;
+  /// The squared length that they are relative to, in the node's units.
+  float unit2;
 
   double total() const { return upTo.back(); }
 };

@@ -42,8 +42,9 @@ float WideLightBVHNode::encode(std::span<const LinearLightBVHNode* const> childr
   origin = box.min;
   const Vec3 edge = box.extent();
   // One scale for all axes keeps angles. A little more, so that rounding never exceeds the range.
-  extent = std::max(std::max({edge.x, edge.y, edge.z}) * 1.00001f, leastExtent);
+  float extent = std::max(std::max({edge.x, edge.y, edge.z}) * 1.00001f, leastExtent);
   if (!std::isfinite(extent)) extent = std::numeric_limits<float>::max();
+  invExtent = 1 / extent;
   for (size_t i = 0; i < children.size(); ++i) {
     const LinearLightBVHNode& c = *children[i];
     const auto bit = static_cast<uint8_t>(1u << i);
@@ -59,16 +60,16 @@ float WideLightBVHNode::encode(std::span<const LinearLightBVHNode* const> childr
 
 void WideLightBVHNode::encodeBox(size_t lane, const LinearLightBVHNode& child) {
   const Vec3 halfExtent = child.halfExtent();
+  const auto scale = static_cast<double>(invExtent);
   for (size_t a = 0; a < 3; ++a) {
     const int axisIndex = static_cast<int>(a);
-    const double scale = static_cast<double>(extent);
     const double exact =
-        (static_cast<double>(child.center()[axisIndex]) - static_cast<double>(origin[axisIndex])) /
+        (static_cast<double>(child.center()[axisIndex]) - static_cast<double>(origin[axisIndex])) *
         scale;
     const double rounded = std::clamp(std::round(exact * kCenterMax), 0., double{kCenterMax});
     center[a][lane] = static_cast<uint16_t>(rounded);
     const double reach =
-        std::abs(rounded / kCenterMax - exact) + static_cast<double>(halfExtent[axisIndex]) / scale;
+        std::abs(rounded / kCenterMax - exact) + static_cast<double>(halfExtent[axisIndex]) * scale;
     // A rounding error that floats can't see is none: points stay points.
     const double code = reach < 1e-9 ? 0 : std::ceil(std::sqrt(2 * reach) * kByteMax);
     half[a][lane] = static_cast<uint8_t>(std::min(code, double{kByteMax}));

@@ -2,7 +2,7 @@
 /// A node of the wide light BVH: up to eight children, side by side, so that all of them are
 /// weighed at once with SIMD instructions.
 ///
-/// Everything is in units of the node: positions relative to `origin` and divided by `extent`,
+/// Everything is in units of the node: positions relative to `origin` and times `invExtent`,
 /// intensities relative to the strongest child. So nothing can overflow whatever the scene's scale
 /// or its lights' power, and 160 bytes are enough for eight children. Boxes and cones are rounded
 /// outwards: a decoded child bounds its lights.
@@ -23,7 +23,7 @@ struct alignas(32) WideLightBVHNode {
   template <class T>
   using Lanes = std::array<T, kWidth>;
 
-  /// Encodes up to kWidth children; not their numbers and links. `extent` is at least
+  /// Encodes up to kWidth children; not their numbers and links. Its extent is at least
   /// `leastExtent` (> 0), which keeps the units of neighbouring nodes comparable. Returns the
   /// strongest child's intensity.
   float encode(std::span<const LinearLightBVHNode* const> children, float leastExtent);
@@ -42,7 +42,7 @@ struct alignas(32) WideLightBVHNode {
   Lanes<uint8_t> cosineE{};                 ///< cos θe = v / 127 − 1
   Lanes<uint16_t> intensity{};              ///< upper half of a float; 0: no child
   Vec3 origin{0};
-  float extent = 1;
+  float invExtent = 1;
   uint32_t firstChild = 0, firstLight = 0;
   uint32_t parent = kNoParent;  ///< 8 × number of the parent + lane there
   uint8_t leaves = 0, inner = 0;
