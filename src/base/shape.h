@@ -47,8 +47,7 @@ class Shape {
   virtual Bounds3 bounds(uint32_t element) const = 0;
   /// The nearest hit with 0 < t < ray.tMax; not called for triangle meshes.
   virtual std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const = 0;
-  /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray` (time; d for nothing
-  /// else).
+  /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray`.
   virtual void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
                        SurfaceInteraction& out) const = 0;
 

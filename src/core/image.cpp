@@ -140,12 +140,6 @@ void writeImageFile(const std::string& path, const Image& image, const WriteOpti
   }
 }
 
-std::shared_ptr<const LoadedImage> ImageCache::get(const std::string& path) {
-  return shared<LoadedImage>(std::filesystem::path(path).lexically_normal().string(), [&path] {
-    return std::make_shared<const LoadedImage>(readImageFile(path));
-  });
-}
-
 std::shared_ptr<const void> ImageCache::fill(
     const Key& key, const std::function<std::shared_ptr<const void>()>& make) {
   std::shared_ptr<Slot> slot;

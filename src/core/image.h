@@ -90,13 +90,9 @@ float linearToSrgb(float v);
 /// four).
 void decodeSrgb(Image& image);
 
-/// Each file is read once, when first asked for; what is made of files (texture pyramids) is made
-/// once. Thread-safe.
+/// What is made of image files (texture pyramids) is made once, when first asked for. Thread-safe.
 class ImageCache {
  public:
-  /// Throws IoError.
-  std::shared_ptr<const LoadedImage> get(const std::string& path);
-
   /// What `make` returned when first called for this type and key. Others who ask for the same
   /// wait; where `make` throws, nothing is kept. `make` must not ask for the same type and key.
   template <class T>
