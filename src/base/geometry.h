@@ -4,6 +4,7 @@
 
 #include "base/light.h"
 #include "base/material.h"
+#include "base/medium.h"
 #include "base/shape.h"
 #include "core/animated_transform.h"
 
@@ -17,6 +18,7 @@ struct Primitive {
   LightId firstLight = kNoLight;              ///< + element; kNoLight: emits, but is not sampled
   const FloatTexture* alpha = nullptr;        ///< rays pass where it is 0
   const FloatTexture* shadowAlpha = nullptr;  ///< the same for occlusion tests
+  MediumInterface media;
   LightId lightId(uint32_t element) const {
     return firstLight == kNoLight ? kNoLight : firstLight + element;
   }

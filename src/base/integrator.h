@@ -66,6 +66,9 @@ class Integrator {
   virtual ~Integrator() = default;
   /// Renders into the film. Returns the number of samples that every pixel has.
   virtual uint64_t render(RenderContext& context) const = 0;
+  virtual bool rendersMedia() const { return false; }
+  /// False if a render cannot go on from a film alone: the integrator learns.
+  virtual bool resumes() const { return true; }
 };
 
 struct IntegratorContext : BuildContext {

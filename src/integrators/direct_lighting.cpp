@@ -23,11 +23,11 @@ int samplesOf(const Light& light) { return std::max(1, light.samples()); }
 }  // namespace
 
 DirectLighting::DirectLighting(const Scene& scene, LightStrategy strategy,
-                               const LightDistribution* distribution)
+                               const LightDistribution* distribution, bool mayCut)
     : scene_(scene),
       strategy_(strategy),
       distribution_(distribution),
-      splits_(distribution && distribution->splits()),
+      splits_(mayCut && distribution && distribution->splits()),
       lightCount_(strategy == LightStrategy::One && !distribution ? 0 : scene.lightTable.size()) {
   for (const auto& light : scene.lights) visible_ = visible_ || !light->isDelta();
   if (strategy == LightStrategy::One) return;
@@ -121,6 +121,37 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
           ? 1.f
           : misWeight(density, static_cast<float>(bsdfDraws_) * bsdf.pdf(at.wo, s->wi));
   return s->radiance * f * (bsdf.absCosTheta(s->wi) * weight / density);
+}
+
+std::optional<DrawnLight> DirectLighting::drawLight(const LightSampleContext& at,
+                                                    SampleStream& stream) const {
+  const float choice = stream.next1D();
+  const Vec2 u = stream.next2D();
+  const auto chosen = distribution_->sample(at, choice);
+  if (!chosen || !(chosen->pmf > 0)) return std::nullopt;
+  const LightTable::Entry entry = scene_.lightTable[chosen->light];
+  const auto s = entry.light->sample(entry.element, at.p, u);
+  if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return std::nullopt;
+  return DrawnLight{*s, chosen->pmf * s->pdf, entry.light->isDelta()};
+}
+
+float DirectLighting::lightWeight(const DrawnLight& drawn, float scatterPdf) {
+  return drawn.isDelta ? 1.f : misWeight(drawn.density, scatterPdf);
+}
+
+Ray DirectLighting::shadowRay(const LightSampleContext& at, float time, const LightSample& light) {
+  Ray ray;
+  ray.time = time;
+  ray.o = offsetRayOrigin(at.p, at.pError, at.n, light.wi);
+  ray.d = light.wi;
+  if (std::isinf(light.distance)) return ray;
+  const bool surface = light.n != Vec3(0);
+  const Vec3 end = surface ? offsetRayOrigin(light.p, light.pError, light.n, -light.wi) : light.p;
+  const Vec3 way = end - ray.o;
+  const float distance = length(way);
+  if (distance > 0) ray.d = way / distance;
+  ray.tMax = distance * kShadowEnd;
+  return ray;
 }
 
 bool DirectLighting::occluded(const LightSampleContext& at, float time,

@@ -13,12 +13,21 @@ enum class LightStrategy : uint8_t {
   All,  ///< every light, as many samples as it asks for
 };
 
+/// Light drawn for a point, before anything is known of what scatters it there.
+struct DrawnLight {
+  LightSample light;
+  float density = 0;  ///< expected draws × pdf by solid angle
+  bool isDelta = false;
+};
+
 /// Both techniques see each other through the expected number of draws times the density, so that a
 /// light is weighed alike from either side however often it is sampled.
 class DirectLighting {
  public:
   /// Cheap. `distribution` is used by LightStrategy::One and may be null if there are no lights.
-  DirectLighting(const Scene& scene, LightStrategy strategy, const LightDistribution* distribution);
+  /// `mayCut` false: always one light, as drawLight() draws it.
+  DirectLighting(const Scene& scene, LightStrategy strategy, const LightDistribution* distribution,
+                 bool mayCut = true);
 
   /// False: light sampling is pointless.
   bool hasLights() const { return lightCount_ > 0; }
@@ -39,6 +48,15 @@ class DirectLighting {
   /// The other part, by rays of its own: for integrators whose paths end here.
   Rgb bsdfSamples(const LightSampleContext& at, float time, SampleStream& stream,
                   RayCounts& rays) const;
+
+  /// For integrators that scatter and shade the light themselves: one light of the distribution
+  /// (LightStrategy::One, `mayCut` false); none where nothing arrives. Takes three numbers.
+  std::optional<DrawnLight> drawLight(const LightSampleContext& at, SampleStream& stream) const;
+  /// The weight of a light drawn with drawLight() where the point's own sampling has density
+  /// `scatterPdf` for its direction: the other half of foundAtHit() and foundOutside().
+  static float lightWeight(const DrawnLight& drawn, float scatterPdf);
+  /// From the point to a light's sample, short of the light's own surface. The direction is unit.
+  static Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light);
 
   /// Radiance that a ray which left `from` with a non-specular BSDF sample of density `bsdfPdf`
   /// finds at `hit` (an emitter), times the weight of that technique.

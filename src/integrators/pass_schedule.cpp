@@ -27,8 +27,8 @@ uint64_t countOf(double n) { return n > 1 ? static_cast<uint64_t>(std::min(n, 1e
 
 }  // namespace
 
-PassSchedule::PassSchedule(const RenderOptions& options, uint64_t target)
-    : options_(options), target_(target) {
+PassSchedule::PassSchedule(const RenderOptions& options, uint64_t target, bool timely)
+    : options_(options), target_(target), timely_(timely) {
   for (size_t i = 0; i < options.stops.size(); ++i) pending_.push_back(i);
   std::stable_sort(pending_.begin(), pending_.end(), [&](size_t a, size_t b) {
     const RenderStop &x = options.stops[a], &y = options.stops[b];
@@ -71,7 +71,7 @@ std::optional<PassSchedule::Pass> PassSchedule::next(uint64_t done, double secon
                     static_cast<double>(kLeastNoiseSamples) - static_cast<double>(done)));
   const double time = nextTime();
   if (secondsPerSample_ > 0) {
-    atMost(kPassSeconds / secondsPerSample_);
+    if (timely_) atMost(kPassSeconds / secondsPerSample_);
     atMost(kTimeShare * (time - seconds) / secondsPerSample_);
   }
   if (pass.samples == 1 && done > 0 && time < kNever) pass.deadline = time;

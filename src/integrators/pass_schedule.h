@@ -15,7 +15,9 @@ namespace lampyris {
 class PassSchedule {
  public:
   /// `target`: samples a pixel, 0: without limit. Copies nothing: `options` must live as long.
-  PassSchedule(const RenderOptions& options, uint64_t target);
+  /// `timely` false: passes are not kept short, so that without a limit of time their sizes do not
+  /// depend on time.
+  PassSchedule(const RenderOptions& options, uint64_t target, bool timely = true);
 
   struct Pass {
     uint64_t samples = 1;
@@ -41,6 +43,7 @@ class PassSchedule {
 
   const RenderOptions& options_;
   const uint64_t target_;
+  const bool timely_;
   std::vector<size_t> pending_;  ///< stops not met yet
   double rendered_ = 0;
   double secondsPerSample_ = 0;

@@ -17,6 +17,7 @@ namespace lampyris {
 namespace {
 
 constexpr double kProgressInterval = 0.1;
+constexpr int kObservedTileSize = 8;
 
 using Clock = std::chrono::steady_clock;
 
@@ -27,16 +28,17 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
 class PassRenderer {
  public:
   PassRenderer(RenderContext& context, const PixelBounds& pixels,
-               const RadianceEstimator& estimator)
+               const RadianceEstimator& estimator, PassObserver* observer)
       : context_(context),
         options_(context.options),
         pixels_(pixels),
         estimator_(estimator),
+        observer_(observer),
         target_(options_.sampleCount > 0 ? options_.sampleCount
                 : options_.seconds > 0 || options_.noise > 0
                     ? 0
                     : static_cast<uint64_t>(context.sampler.samplesPerPixel())),
-        schedule_(options_, target_),
+        schedule_(options_, target_, observer == nullptr),
         aovs_(context.film.aovs()),
         done_(options_.firstSample),
         // As in pbrt-v3: the footprint of one of several samples is smaller than the pixel.
@@ -44,6 +46,10 @@ class PassRenderer {
             1 / std::sqrt(static_cast<float>(std::max(1, context.sampler.samplesPerPixel())))) {
     for (const auto& m : context.scene.materials)
       if (m->wantsDifferentials()) differentials_ = true;
+    if (observer_) {
+      tileSize_ = kObservedTileSize;
+      return;
+    }
     // Small images are cut finer so that all threads have work to the end.
     const int64_t wanted = 8LL * threadCount();
     while (tileSize_ > 2 && tilesAcross() * tilesDown() < wanted) tileSize_ /= 2;
@@ -76,6 +82,7 @@ class PassRenderer {
   const RenderOptions& options_;
   const PixelBounds pixels_;
   const RadianceEstimator& estimator_;
+  PassObserver* const observer_;
   const uint64_t target_;  ///< 0: without limit
   PassSchedule schedule_;
   const AovSet aovs_;
@@ -128,12 +135,15 @@ void PassRenderer::renderPass(uint64_t samples) {
   const double before = seconds();
   const uint64_t pathsBefore = paths_;
   wholeTiles_ = 0;
+  if (observer_) observer_->beginPass({samples, static_cast<size_t>(tiles), end == target_});
   parallelFor(static_cast<size_t>(tiles), 1, [&](size_t first, size_t last) {
     for (size_t t = first; t < last && !cutShort(); ++t)
       renderTile(static_cast<int64_t>(t) * stride % tiles, end);
   });
   schedule_.passDone(perPixel(paths_ - pathsBefore), seconds() - before);
-  if (wholeTiles_ == tiles) done_ = end;
+  if (wholeTiles_ != tiles) return;
+  done_ = end;
+  if (observer_) observer_->endPass();
 }
 
 /// Calls who looks at the image, while the render's clock stands still.
@@ -154,6 +164,7 @@ void PassRenderer::renderTile(int64_t tile, uint64_t end) {
                                         tileSize_;
   const PixelBounds area = intersect(pixels_, {corner, corner + Int2(tileSize_)});
   RenderState state;
+  state.memory = estimator_.makeMemory();
   BadSamples bad;
   uint64_t paths = 0;
   bool whole = true;
@@ -167,6 +178,7 @@ void PassRenderer::renderTile(int64_t tile, uint64_t end) {
       paths += end - first.index;
     }
   }
+  if (observer_) observer_->tileDone(static_cast<size_t>(tile), state);
   tileDone(paths, whole, state, bad);
 }
 
@@ -275,8 +287,8 @@ PixelBounds renderedPixels(const Film& film, const std::vector<int>& pixelBounds
 }
 
 uint64_t renderPasses(RenderContext& context, const PixelBounds& pixels,
-                      const RadianceEstimator& estimator) {
-  return PassRenderer(context, pixels, estimator).run();
+                      const RadianceEstimator& estimator, PassObserver* observer) {
+  return PassRenderer(context, pixels, estimator, observer).run();
 }
 
 }  // namespace lampyris

@@ -2,6 +2,7 @@
 /// The loop over passes, tiles, pixels and samples that all path-like integrators share.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/bsdf.h"
@@ -19,11 +20,18 @@ struct RayCounts {
   }
 };
 
+/// What an estimator keeps from sample to sample of a tile; estimators derive from it.
+class EstimatorMemory {
+ public:
+  virtual ~EstimatorMemory() = default;
+};
+
 /// What a thread keeps from sample to sample, so that a sample allocates and clears nothing large.
 struct RenderState {
   Bsdf bsdf;
   RayCounts rays;
-  AovRecord* aov = nullptr;  ///< of the sample being made; null: nobody asked
+  AovRecord* aov = nullptr;                 ///< of the sample being made; null: nobody asked
+  std::unique_ptr<EstimatorMemory> memory;  ///< of RadianceEstimator::makeMemory()
 };
 
 /// Estimates the radiance that arrives along a camera ray. Thread-safe.
@@ -32,6 +40,25 @@ class RadianceEstimator {
   virtual ~RadianceEstimator() = default;
   /// One estimate, a pure function of the arguments. `stream` stands at kFirstPathDimension.
   virtual Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const = 0;
+  virtual std::unique_ptr<EstimatorMemory> makeMemory() const { return nullptr; }
+};
+
+/// Learns between passes. With an observer, tiles and the sizes of passes depend neither on the
+/// number of threads nor, but for a limit of time, on time: passes are of 1, 1, 2, 4, 8 … samples a
+/// pixel.
+class PassObserver {
+ public:
+  struct Pass {
+    uint64_t samples = 0;  ///< a pixel
+    size_t tiles = 0;
+    bool isLast = false;  ///< as far as is known: nothing will use what is learned
+  };
+  virtual ~PassObserver() = default;
+  virtual void beginPass(const Pass& pass) = 0;
+  /// Called by several threads at once, for each tile once a pass.
+  virtual void tileDone(size_t tile, RenderState& state) = 0;
+  /// Not called for a pass that was cut short.
+  virtual void endPass() = 0;
 };
 
 /// Dimensions 0–1 are the position on the film, 2–3 on the lens, 4 the time. The first one left is
@@ -47,6 +74,6 @@ PixelBounds renderedPixels(const Film& film, const std::vector<int>& pixelBounds
 /// goes on from the number of samples that the film has of it. Returns the number of samples that
 /// all pixels have at the end.
 uint64_t renderPasses(RenderContext& context, const PixelBounds& pixels,
-                      const RadianceEstimator& estimator);
+                      const RadianceEstimator& estimator, PassObserver* observer = nullptr);
 
 }  // namespace lampyris

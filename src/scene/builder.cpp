@@ -12,6 +12,7 @@
 #include "lights/area_registry.h"
 #include "lights/registry.h"
 #include "materials/registry.h"
+#include "media/registry.h"
 #include "samplers/registry.h"
 #include "scene/build_state.h"
 #include "scene/parser.h"
@@ -66,7 +67,8 @@ std::vector<const RegistryInfo*> allRegistries() {
           &filterRegistry(),       &cameraRegistry(),
           &shapeRegistry(),        &materialRegistry(),
           &floatTextureRegistry(), &spectrumTextureRegistry(),
-          &lightRegistry(),        &areaLightRegistry()};
+          &lightRegistry(),        &areaLightRegistry(),
+          &mediumRegistry()};
 }
 
 }  // namespace lampyris

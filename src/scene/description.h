@@ -72,11 +72,13 @@ struct InstanceDescription {
 struct MediumDefinition {
   std::string_view name;
   PluginUse plugin;
+  uint32_t transform = 0, order = 0;
 };
 
 struct MediumInterfaceDescription {
   std::string_view inside, outside;
   SourceLocation location;
+  uint32_t order = 0;
 };
 
 /// Movable, not copyable: the views point into its arenas and into the SourceFiles it was read
@@ -97,6 +99,8 @@ struct Description {
   std::vector<InstanceDescription> instances;
   std::vector<MediumDefinition> media;
   std::vector<MediumInterfaceDescription> mediumInterfaces;
+  /// The one that holds at WorldEnd: as in pbrt-v3, its outside is what the camera stands in.
+  uint32_t cameraMediumInterface = kNone;
 
   NameIndex floatTextureNames, spectrumTextureNames;  ///< of `textures`
   NameIndex materialNames;                            ///< of `materials`

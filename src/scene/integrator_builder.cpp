@@ -18,12 +18,6 @@ const IntegratorRegistry::Entry& choosePlugin(BuildState& state) {
   const std::string other = state.overrides.plugin("integrator");
   if (!other.empty()) return findPlugin(registry, other, {});
   if (!where.known()) return findPlugin(registry, "path", where);
-  if (use.name == "volpath" && !registry.find("volpath")) {
-    state.diagnostics.warn(where,
-                           "integrator \"volpath\" is not rendered yet; \"path\" takes its "
-                           "place, without media");
-    return findPlugin(registry, "path", where);
-  }
   return findPlugin(registry, use.name, where);
 }
 
@@ -87,6 +81,10 @@ void buildIntegrator(BuildState& state, const IntegratorChoice& choice) {
   };
   state.job.integrator =
       choice.plugin->create(set, {state.context(set.location), scene, lightDistribution});
+  if (!scene.media.empty() && !state.job.integrator->rendersMedia())
+    state.diagnostics.warn(set.location, "integrator \"" + choice.plugin->name +
+                                             "\" does not render participating media: they are "
+                                             "ignored (\"volpath\" renders them)");
 }
 
 }  // namespace lampyris

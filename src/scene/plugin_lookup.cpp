@@ -20,7 +20,7 @@ const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
       {"integrator",
        "integrator",
-       {"volpath", "whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
+       {"whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
   };
   return all;
 }

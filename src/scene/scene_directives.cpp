@@ -52,7 +52,7 @@ void WorldParser::camera() {
 
 void WorldParser::makeNamedMedium() {
   const std::string_view name = stringArgument("a medium's name");
-  out_.media.push_back({name, namedPluginUse("medium")});
+  out_.media.push_back({name, namedPluginUse("medium"), transformIndex(), order_});
 }
 
 void WorldParser::mediumInterface() {
@@ -60,7 +60,7 @@ void WorldParser::mediumInterface() {
   const std::string_view outside =
       in_->peek() == TokenKind::String ? reader_.readString(*in_) : inside;
   state_.mediumInterface = static_cast<uint32_t>(out_.mediumInterfaces.size());
-  out_.mediumInterfaces.push_back({inside, outside, at_});
+  out_.mediumInterfaces.push_back({inside, outside, at_, order_});
 }
 
 void WorldParser::makeNamedMaterial() {

@@ -3,6 +3,7 @@
 
 #include "lights/area_registry.h"
 #include "scene/appearance_builder.h"
+#include "scene/medium_builder.h"
 #include "scene/plugin_lookup.h"
 #include "shapes/registry.h"
 
@@ -24,8 +25,9 @@ class TransparentTexture final : public FloatTexture {
 
 class ShapeBuilder {
  public:
-  explicit ShapeBuilder(BuildState& state)
+  ShapeBuilder(BuildState& state, MediumBuilder& media)
       : state_(state),
+        media_(media),
         appearance_(state),
         shapeFinder_(shapeRegistry()),
         lightFinder_(areaLightRegistry()),
@@ -41,6 +43,7 @@ class ShapeBuilder {
   void create(BuiltShape& shape, const Plan& plan, std::unique_ptr<Shape>& out);
 
   BuildState& state_;
+  MediumBuilder& media_;
   AppearanceBuilder appearance_;
   PluginFinder<ShapeRegistry> shapeFinder_;
   PluginFinder<AreaLightRegistry> lightFinder_;
@@ -95,6 +98,7 @@ Plan ShapeBuilder::plan(BuiltShape& shape) {
   plan.shape = &shapeFinder_.find(d.plugin.name, where);
   plan.parameters = state_.spectra.resolve(d.plugin.parameters);
   shape.primitive.material = appearance_.materialOf(d);
+  shape.primitive.media = media_.interfaceOf(d.mediumInterface);
   const Schema* const material = appearance_.materialSchema(d);
   const Schema* const schemas[] = {&plan.shape->schema, material};
   checkParameters(plan.parameters, std::span(schemas, material ? 2 : 1), shapeRegistry(),
@@ -159,6 +163,8 @@ BuiltShapes ShapeBuilder::build() {
 
 }  // namespace
 
-BuiltShapes buildShapes(BuildState& state) { return ShapeBuilder(state).build(); }
+BuiltShapes buildShapes(BuildState& state, MediumBuilder& media) {
+  return ShapeBuilder(state, media).build();
+}
 
 }  // namespace lampyris

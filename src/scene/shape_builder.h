@@ -27,8 +27,10 @@ struct BuiltShapes {
   std::vector<Bounds3> objectBounds;  ///< in the objects' own space
 };
 
+class MediumBuilder;
+
 /// Builds the shapes of the world and of objects that are placed, in parallel, with their
-/// materials, alpha textures and area lights.
-BuiltShapes buildShapes(BuildState& state);
+/// materials, alpha textures, media and area lights.
+BuiltShapes buildShapes(BuildState& state, MediumBuilder& media);
 
 }  // namespace lampyris

@@ -8,19 +8,12 @@
 #include "accelerators/embree_geometry.h"
 #include "scene/build_state.h"
 #include "scene/light_builder.h"
+#include "scene/medium_builder.h"
 #include "scene/shape_builder.h"
 
 namespace lampyris {
 
 namespace {
-
-void warnOfMedia(const BuildState& state) {
-  const Description& d = state.description;
-  if (d.media.empty() && d.mediumInterfaces.empty()) return;
-  const SourceLocation where =
-      d.media.empty() ? d.mediumInterfaces[0].location : d.media[0].plugin.parameters.location;
-  state.diagnostics.warn(where, "participating media are not rendered yet: they are ignored");
-}
 
 /// Of primitives and instances; a point where there are none, so that it has a centre.
 Bounds3 sceneBounds(const BuiltShapes& built, const BuildState& state) {
@@ -116,6 +109,7 @@ void reportSizes(const BuildState& state, const BuiltShapes& built, const Geomet
   set("instances", g.instances.size());
   set("materials", scene.materials.size());
   set("textures", scene.floatTextures.size() + scene.spectrumTextures.size());
+  set("media", scene.media.size());
   set("light objects", scene.lightTable.objectCount());
   set("lights", scene.lightTable.size());
 }
@@ -124,8 +118,11 @@ void reportSizes(const BuildState& state, const BuiltShapes& built, const Geomet
 
 void buildWorld(BuildState& state) {
   Scene& scene = state.job.scene;
-  warnOfMedia(state);
-  BuiltShapes built = buildShapes(state);
+  MediumBuilder media(state);
+  BuiltShapes built = buildShapes(state, media);
+  scene.cameraMedium = media.interfaceOf(state.description.cameraMediumInterface).outside;
+  for (const BuiltShape& s : built.shapes)
+    scene.hasInterfaces = scene.hasInterfaces || !s.primitive.material;
   buildLights(state, built, sceneBounds(built, state));
   GeometryDescription geometry = GeometryDescriber(state).describe(built);
   reportSizes(state, built, geometry);

@@ -172,6 +172,7 @@ void WorldParser::worldBegin() {
 
 void WorldParser::worldEnd() {
   worldEnded_ = true;
+  out_.cameraMediumInterface = state_.mediumInterface;
   for (const OpenBlock& b : blocks_)
     diagnostics_.warn(b.location,
                       fmt::format("{} is not closed before WorldEnd", beginName(b.kind)));

@@ -199,6 +199,10 @@ int RenderSession::run() {
   try {
     const auto start = std::chrono::steady_clock::now();
     loadJob();
+    if (!job_->integrator->resumes() && !(settings_.checkpoint.empty() && settings_.resume.empty()))
+      throw UsageError(
+          "this integrator learns while it renders: --checkpoint and --resume cannot "
+          "be used with it");
     report_.scene = scene_;
     report_.loadSeconds = secondsSince(start);
     if (settings_.pixel) {

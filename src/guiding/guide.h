@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Guides: distributions of directions that are learned while an image is rendered.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "base/medium.h"
+#include "core/statistics.h"
+#include "core/vector.h"
+
+namespace lampyris {
+
+/// A point that wants a direction.
+struct GuidePoint {
+  Vec3 p{0};
+  /// Geometric normal on the side of wo, unit; zero in a medium.
+  Vec3 n{0};
+  bool transmits = false;  ///< light from behind the surface is scattered as well
+
+  bool onSurface() const { return n != Vec3(0); }
+};
+
+/// What a point does with light from a direction.
+class DirectionWeight {
+ public:
+  /// Luminance of BSDF × |cos|, or of the phase function; ≥ 0.
+  virtual float weight(const Vec3& wi) const = 0;
+
+ protected:
+  ~DirectionWeight() = default;
+};
+
+/// Radiance that a path found: what guides learn from. `radiance / pdf` estimates the integral of
+/// the radiance over the directions.
+struct GuideSample {
+  Vec3 p{0}, n{0};  ///< as in GuidePoint, but n on the side of wi
+  Vec3 wi{0};
+  float radiance = 0;  ///< luminance; finite, ≥ 0
+  float pdf = 0;       ///< by solid angle, with which wi was drawn; > 0
+};
+
+/// A guide's distribution at one point; one object serves a thread for all its points.
+class LocalGuide {
+ public:
+  virtual ~LocalGuide() = default;
+  /// Sets the point. False: nothing is known there.
+  virtual bool moveTo(const GuidePoint& point, const DirectionWeight& scattering) = 0;
+  /// A direction with exactly the density pdf(); `u` for the choice of a part, `v` for the
+  /// direction, `more` where those do not suffice.
+  virtual Vec3 sample(float u, const Vec2& v, NumberSequence& more) const = 0;
+  virtual float pdf(const Vec3& wi) const = 0;
+};
+
+/// Frozen while a pass is rendered, changed by learn() between passes only.
+class Guide {
+ public:
+  virtual ~Guide() = default;
+  virtual std::unique_ptr<LocalGuide> makeLocal() const = 0;
+  /// Takes the samples of a part of a pass, in an order that is the same for any number of
+  /// threads; then, once a pass, endPass().
+  virtual void learn(std::span<const GuideSample> samples) = 0;
+  virtual void endPass() = 0;
+  virtual void report(Statistics& statistics) const = 0;
+};
+
+}  // namespace lampyris

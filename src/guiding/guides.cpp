@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guiding/guides.h"
+
+#include <algorithm>
+
+namespace lampyris {
+
+namespace {
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<Guide> (*make)(const GuideSettings&, const Scene&);
+};
+
+std::unique_ptr<Guide> makeNone(const GuideSettings&, const Scene&) { return nullptr; }
+
+std::unique_ptr<Guide> makeSignificance(const GuideSettings& s, const Scene& scene) {
+  return std::make_unique<SignificanceCache>(s.significance, scene.bounds);
+}
+
+// One line a guide.
+constexpr Entry kGuides[] = {
+    {"significance", makeSignificance},
+    {"none", makeNone},
+};
+
+}  // namespace
+
+void GuideSettings::declare(Declaration& d) {
+  std::vector<std::string> names;
+  for (const Entry& e : kGuides) names.emplace_back(e.name);
+  d.add("guide", name, "What guides the paths.").oneOf(names);
+  significance.declare(d);
+}
+
+std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene) {
+  const auto* e = std::find_if(std::begin(kGuides), std::end(kGuides),
+                               [&](const Entry& entry) { return settings.name == entry.name; });
+  return e->make(settings, scene);
+}
+
+}  // namespace lampyris

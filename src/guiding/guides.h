@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The guides by name, and their parameters.
+#pragma once
+
+#include <string>
+
+#include "base/scene.h"
+#include "guiding/guide.h"
+#include "guiding/significance_cache.h"
+
+namespace lampyris {
+
+/// Parameters of all guides; each guide reads its own.
+struct GuideSettings {
+  std::string name = "significance";
+  SignificanceSettings significance;
+  void declare(Declaration& d);
+};
+
+/// Null for "none". `settings.name` must be one of those declared.
+std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene);
+
+}  // namespace lampyris

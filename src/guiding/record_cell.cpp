@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guiding/record_cell.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lampyris {
+
+namespace {
+
+constexpr double kFirstFit = 32;
+constexpr double kFading = 0.5;
+/// Share of the flux around that may come from anywhere: keeps a lobe from taking all of a sample
+/// that it hardly predicts.
+constexpr float kBackground = 0.05f;
+/// Within this part of its height a lobe is taken to know about a direction (the paper's s > 0.5).
+constexpr float kKnown = 0.5f;
+/// A lobe with less than this share of the cell's flux is not worth its place.
+constexpr float kIdleShare = 2e-3f;
+/// Two lobes as high as this at each other's axis are one.
+constexpr float kAlike = 0.8f;
+/// Bounds sample weights, so that no sum overflows: far beyond radiances that images hold.
+constexpr double kLargestWeight = 1e60;
+
+constexpr size_t kMostRecords = 32;
+
+}  // namespace
+
+RecordCell::RecordCell(int room) : room_(room), nextFit_(kFirstFit) {}
+
+RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(parent) {
+  s_ *= share;
+  i_ *= share;
+  i2_ *= share;
+  for (SignificanceRecord& r : records_) r.fade(share);
+  sinceFit_ = 0;
+  nextFit_ = kFirstFit;
+}
+
+bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
+  const double weight = std::min(
+      static_cast<double>(sample.radiance) / static_cast<double>(sample.pdf), kLargestWeight);
+  normal_ = sample.n;
+  const bool significant = weight >= meanFlux();
+  s_ += 1;
+  i_ += weight;
+  i2_ += weight * weight;
+  sinceFit_ += 1;
+  bool inserted = false;
+  if (weight > 0) {
+    std::array<float, kMostRecords> predicted;
+    float total = 0;
+    bool known = false;
+    for (size_t i = 0; i < records_.size(); ++i) {
+      const SignificanceRecord& r = records_[i];
+      const float power = lobePower(r.level(), r.direction(), sample.wi);
+      predicted[i] = r.radiance() * power;
+      total += predicted[i];
+      known = known || power > kKnown;
+    }
+    const float sphere = sample.n == Vec3(0) ? 4 * kPi : 2 * kPi;
+    const float mean = static_cast<float>(std::min(meanFlux(), 1e30)) / sphere;
+    const float sum = total + kBackground * mean;
+    if (sum > 0)
+      for (size_t i = 0; i < records_.size(); ++i)
+        records_[i].add(sample.wi, weight * static_cast<double>(predicted[i] / sum));
+    if (mayInsert && significant && !known && sample.radiance > total &&
+        records_.size() < static_cast<size_t>(room_)) {
+      records_.emplace_back(sample.p, sample.wi, weight).fit(s_);
+      inserted = true;
+    }
+  }
+  if (sinceFit_ >= nextFit_) fit();
+  return inserted;
+}
+
+void RecordCell::fit() {
+  for (SignificanceRecord& r : records_) {
+    r.fit(s_);
+    r.fade(kFading);
+  }
+  s_ *= kFading;
+  i_ *= kFading;
+  i2_ *= kFading;
+  sinceFit_ = 0;
+  nextFit_ = std::max(kFirstFit, 2 * s_);
+  mergeAlike();
+}
+
+/// Lobes that have come to the same place make room for one that is needed elsewhere.
+void RecordCell::mergeAlike() {
+  for (size_t i = 0; i < records_.size(); ++i)
+    for (size_t j = records_.size() - 1; j > i; --j) {
+      const SignificanceRecord &a = records_[i], &b = records_[j];
+      if (std::min(lobePower(a.level(), a.direction(), b.direction()),
+                   lobePower(b.level(), a.direction(), b.direction())) < kAlike ||
+          std::abs(a.level() - b.level()) > 2)
+        continue;
+      records_[i].merge(b);
+      records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
+void RecordCell::endPass() {
+  if (sinceFit_ >= kFirstFit) fit();
+  const auto least = static_cast<float>(meanFlux()) * kIdleShare;
+  if (s_ >= kFirstFit)
+    std::erase_if(records_, [&](const SignificanceRecord& r) { return !(r.flux() > least); });
+}
+
+}  // namespace lampyris

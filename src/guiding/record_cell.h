@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The records of one neighbourhood, learned together.
+#pragma once
+
+#include <vector>
+
+#include "guiding/guide.h"
+#include "guiding/significance_record.h"
+
+namespace lampyris {
+
+/// A mixture of lobes, fitted by stepwise expectation maximisation: the lobes are fitted anew
+/// whenever the number of samples has doubled, and what was counted before then counts half, so
+/// that early guesses are forgotten.
+class RecordCell {
+ public:
+  /// `room`: how many records it may hold.
+  explicit RecordCell(int room);
+  /// A part of `parent`, from whose records it starts.
+  RecordCell(const RecordCell& parent, double share);
+
+  /// Counts a sample. True if it made a record; `mayInsert` false: it must not.
+  bool learn(const GuideSample& sample, bool mayInsert);
+  /// Fits, and drops what does not help.
+  void endPass();
+
+  const std::vector<SignificanceRecord>& records() const { return records_; }
+  /// S: how many samples were seen, the older ones counted less.
+  double samples() const { return s_; }
+  /// How many samples of equal weight would tell as much of the radiance.
+  double effectiveSamples() const { return i2_ > 0 ? i_ / i2_ * i_ : 0; }
+  /// Of the surface that the latest sample was on; zero in a medium.
+  const Vec3& normal() const { return normal_; }
+  /// Ĩ times 2π: mean weight of all samples, the flux of all directions.
+  double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
+
+ private:
+  void fit();
+  void mergeAlike();
+
+  int room_;
+  std::vector<SignificanceRecord> records_;
+  Vec3 normal_{0};
+  double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares
+  double sinceFit_ = 0, nextFit_;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// T. Bashford-Rogers, K. Debattista and A. Chalmers 2012, "A Significance Cache for Accelerating
+// Global Illumination", §3.
+//
+// Deviations. Updates happen between passes, in a fixed order, where the paper's threads race.
+// Samples count with their weights and in shares (see SignificanceRecord), which replaces eq. 7 to
+// 12. The records of a cell of the hash are used together, in place of the N_cache nearest ones: to
+// search those took five times as long as everything else at a vertex, and single lobes near to
+// each other cover a hemisphere with gaps. Cells are divided where there are many samples. Cost a
+// look-up: a probe of the hash, up to six steps down a tree, the BSDF for each lobe.
+#include "guiding/significance_cache.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "guiding/lobe_mixture.h"
+
+namespace lampyris {
+
+namespace {
+
+float usableSize(float size) { return size > 0 && std::isfinite(size) ? size : 1.f; }
+
+/// Which of the six faces of a cube a normal points to; 6 for none.
+uint64_t facing(const Vec3& n) {
+  if (n == Vec3(0)) return 6;
+  const Vec3 a = glm::abs(n);
+  const int axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+  return 2 * static_cast<uint64_t>(axis) + (n[axis] < 0);
+}
+
+/// 1 / V of a record for surfaces with normal `n`; of the whole lobe where n is zero.
+float inverseAbove(const SignificanceRecord& r, const Vec3& n) {
+  const float tilt = dot(r.direction(), n);
+  return n == Vec3(0) || !(tilt > 0) ? inverseWholeLobe(r.level())
+                                     : inverseClippedLobe(r.level(), tilt);
+}
+
+}  // namespace
+
+void SignificanceSettings::declare(Declaration& d) {
+  d.add("radius", radius,
+        "Significance cache: records serve points within this many diagonals of the scene; less "
+        "where many paths come by.")
+      .range(1e-6, 1);
+  d.add("ncache", nearest, "Significance cache: records used at a point, at most.")
+      .range(1, SignificanceCache::kMostNearest);
+  d.add("maxrecords", maxRecords, "Significance cache: records in all, at most.").range(0, 1e8);
+}
+
+SignificanceCache::SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene)
+    : settings_(settings),
+      origin_(scene.empty() ? Vec3(0) : scene.min),
+      size_(usableSize(settings.radius * scene.diagonal())) {}
+
+std::unique_ptr<LocalGuide> SignificanceCache::makeLocal() const {
+  return std::make_unique<LobeMixture>(*this);
+}
+
+SignificanceCache::Root SignificanceCache::rootOf(const Vec3& p, const Vec3& n) const {
+  // Far beyond, in endless media, all is one cell. Shifted by a third of a cell, so that walls on
+  // the scene's bounds do not lie on the cells' faces.
+  constexpr float kFarthest = 1e6f;
+  Root root{facing(n), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float x = (p[axis] - origin_[axis]) / size_ + 1 / 3.f;
+    const float cell = std::floor(std::clamp(x, -kFarthest, kFarthest));
+    root.key = hashCombine(root.key, static_cast<uint64_t>(static_cast<int64_t>(cell)));
+    root.centre[axis] = origin_[axis] + (cell + 0.5f - 1 / 3.f) * size_;
+  }
+  return root;
+}
+
+SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) const {
+  if (slots_.empty()) return {};
+  const Root root = rootOf(p, n);
+  const size_t mask = slots_.size() - 1;
+  size_t slot = root.key & mask;
+  while (slots_[slot].root != 0 && slots_[slot].key != root.key) slot = (slot + 1) & mask;
+  if (slots_[slot].root == 0) return {};
+  const Node* node = &nodes_[slots_[slot].root - 1];
+  Vec3 centre = root.centre;
+  float size = size_;
+  while (true) {
+    const int32_t child = node->children[static_cast<size_t>(CellTree::descend(p, centre, size))];
+    if (child == CellTree::kNoChild) break;
+    node = &nodes_[static_cast<size_t>(child)];
+  }
+  return {{lobes_.data() + node->first, node->count}, node->n};
+}
+
+void SignificanceCache::learn(std::span<const GuideSample> samples) {
+  learned_ += samples.size();
+  for (const GuideSample& s : samples) {
+    const Root root = rootOf(s.p, s.n);
+    const auto [at, isNew] = treeAt_.try_emplace(root.key, static_cast<uint32_t>(trees_.size()));
+    if (isNew) {
+      if (!(s.radiance > 0) || recordCount() >= static_cast<size_t>(settings_.maxRecords)) {
+        treeAt_.erase(at);
+        continue;
+      }
+      trees_.emplace_back(root.centre, size_, settings_.nearest);
+      keys_.push_back(root.key);
+      waiting_.emplace_back();
+    }
+    waiting_[at->second].push_back(s);
+  }
+}
+
+void SignificanceCache::endPass() {
+  // Each tree may add an equal part of what is left, so that the outcome knows no order.
+  const size_t left = static_cast<size_t>(settings_.maxRecords) -
+                      std::min(static_cast<size_t>(settings_.maxRecords), recordCount());
+  const size_t quota = trees_.empty() ? 0 : left / trees_.size();
+  const size_t first = trees_.empty() ? 0 : left % trees_.size();
+  parallelFor(trees_.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      for (const GuideSample& s : waiting_[i]) trees_[i].learn(s, quota + (i < first));
+      trees_[i].endPass();
+      waiting_[i] = {};
+    }
+  });
+  freeze();
+}
+
+void SignificanceCache::freeze() {
+  nodes_.clear();
+  lobes_.clear();
+  slots_.assign(std::bit_ceil(2 * trees_.size() + 1), {});
+  const size_t mask = slots_.size() - 1;
+  for (size_t t = 0; t < trees_.size(); ++t) {
+    const auto first = static_cast<int32_t>(nodes_.size());
+    size_t slot = keys_[t] & mask;
+    while (slots_[slot].root != 0) slot = (slot + 1) & mask;
+    slots_[slot] = {keys_[t], static_cast<uint32_t>(first) + 1};
+    for (const CellTree::Node& n : trees_[t].nodes()) {
+      Node flat{static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal(), n.children};
+      for (int32_t& child : flat.children)
+        if (child != CellTree::kNoChild) child += first;
+      for (const SignificanceRecord& r : n.cell.records())
+        lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+      flat.count = static_cast<uint32_t>(lobes_.size()) - flat.first;
+      nodes_.push_back(flat);
+    }
+  }
+}
+
+size_t SignificanceCache::memory() const {
+  size_t bytes = slots_.capacity() * sizeof(Slot) + nodes_.capacity() * sizeof(Node) +
+                 lobes_.capacity() * sizeof(Lobe) + treeAt_.size() * 32;
+  for (const CellTree& t : trees_) bytes += t.memory();
+  return bytes;
+}
+
+void SignificanceCache::report(Statistics& statistics) const {
+  const auto set = [&statistics](const char* name, size_t value) {
+    statistics.set("guide", name, static_cast<double>(value));
+  };
+  set("records", recordCount());
+  set("cells", nodes_.size());
+  set("samples learned from", learned_);
+  set("memory (bytes)", memory());
+}
+
+}  // namespace lampyris

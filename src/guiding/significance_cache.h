@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The significance cache (Bashford-Rogers et al. 2012): records of cosine lobes, found by
+/// position.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/bounds.h"
+#include "core/parameters.h"
+#include "guiding/cell_tree.h"
+
+namespace lampyris {
+
+struct SignificanceSettings {
+  float radius = 0.1f;       ///< width of an undivided cell, in diagonals of the scene
+  int nearest = 8;           ///< records used at a point, at most
+  int maxRecords = 500'000;  ///< bounds the memory
+  void declare(Declaration& d);
+};
+
+/// Records live in the cells of a spatial hash, apart for surfaces that face different ways and for
+/// media; a look-up reads one cell. Cells that many paths visit are divided.
+class SignificanceCache final : public Guide {
+ public:
+  static constexpr int kMostNearest = 32;
+
+  /// A record as look-ups see it.
+  struct Lobe {
+    Vec3 axis{0};
+    float flux = 0;
+    int level = 0;
+    float inverse = 0;  ///< 1 / V above the plane of Lobes::n
+  };
+  struct Lobes {
+    std::span<const Lobe> lobes;
+    Vec3 n{0};  ///< as of a surface in the cell; most points of a cell share it
+  };
+
+  SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene);
+
+  std::unique_ptr<LocalGuide> makeLocal() const override;
+  void learn(std::span<const GuideSample> samples) override;
+  void endPass() override;
+  void report(Statistics& statistics) const override;
+
+  /// The lobes around `p` for surfaces facing `n` (zero: in a medium); empty if nothing is known.
+  Lobes find(const Vec3& p, const Vec3& n) const;
+
+  size_t recordCount() const { return lobes_.size(); }
+  size_t memory() const;
+  const std::vector<CellTree>& trees() const { return trees_; }
+
+ private:
+  /// Of a tree, flat for look-ups.
+  struct Node {
+    uint32_t first = 0, count = 0;  ///< of lobes_
+    Vec3 n{0};
+    CellTree::Children children;  ///< indices in nodes_
+  };
+  struct Slot {
+    uint64_t key = 0;
+    uint32_t root = 0;  ///< index in nodes_ + 1; 0: empty
+  };
+  struct Root {
+    uint64_t key;
+    Vec3 centre;
+  };
+  Root rootOf(const Vec3& p, const Vec3& n) const;
+  void freeze();
+
+  SignificanceSettings settings_;
+  Vec3 origin_;
+  float size_;
+  std::vector<CellTree> trees_;
+  std::vector<uint64_t> keys_;                     ///< of the trees
+  std::unordered_map<uint64_t, uint32_t> treeAt_;  ///< by key
+  std::vector<std::vector<GuideSample>> waiting_;  ///< per tree: learned from at the pass's end
+
+  std::vector<Slot> slots_;  ///< a power of two, at most half full
+  std::vector<Node> nodes_;
+  std::vector<Lobe> lobes_;
+  uint64_t learned_ = 0;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the significance cache knows of one direction in the neighbourhood of one point.
+#pragma once
+
+#include "guiding/clipped_lobe.h"
+
+namespace lampyris {
+
+/// A cosine lobe and the sums from which it is fitted. Names as in the paper (§3.2): position x̃,
+/// direction ω̃, exponent e, counts Sa and Sr (S and the mean Ĩ are the same for all records of a
+/// cell, see RecordCell).
+///
+/// The paper counts samples; here every sample counts with its weight w = L / pdf, the estimate of
+/// the integral of radiance, because samples come from the very distribution that is learned: to
+/// count them as they fall would confirm whatever was guessed first. With the weights, Sa sums what
+/// belongs to the lobe and Sr the same times 1 − cos of the angle to the lobe's axis. A lobe of
+/// exponent e has the mean cosine (e + 1) / (e + 2), so that the exponent that fits is
+///
+///     e = Sa / Sr − 2,
+///
+/// the form of eq. 9, right in expectation. A sample belongs to several lobes in the shares in
+/// which they predict it (the E step of expectation maximisation), in place of the thresholds of
+/// eq. 7 and 8.
+class SignificanceRecord {
+ public:
+  /// A lobe made for one sample of weight `w`.
+  SignificanceRecord(const Vec3& position, const Vec3& direction, double w);
+
+  /// Counts a part of a sample's weight.
+  void add(const Vec3& wi, double part);
+  /// Fits the lobe to the sums; `samples` is the number of all samples nearby.
+  void fit(double samples);
+  void fade(double factor);
+  /// Takes over what another record knows.
+  void merge(const SignificanceRecord& other);
+
+  /// Where the first sample was.
+  const Vec3& position() const { return position_; }
+  const Vec3& direction() const { return direction_; }
+  int level() const { return level_; }
+  /// e, in [1, kMaxLobeExponent].
+  float exponent() const { return exponent_; }
+  /// Integral of the lobe's radiance over directions.
+  float flux() const { return flux_; }
+  /// L̃: the lobe's peak.
+  float radiance() const { return flux_ * inverseWholeLobe(level_); }
+
+ private:
+  Vec3 position_, direction_;
+  float exponent_, flux_ = 0;
+  int level_;
+  double sa_ = 0, sa2_ = 0;  ///< Sa; the sum of its terms' squares
+  double m_[3] = {};         ///< sum of parts × directions; Sr = Sa − its length
+};
+
+}  // namespace lampyris

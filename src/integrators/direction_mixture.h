@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The next direction of a path: from the BSDF or phase function, or from a guide.
+#pragma once
+
+#include "base/bsdf.h"
+#include "guiding/guide.h"
+
+namespace lampyris {
+
+/// What scatters light at a vertex of a path: a surface's BSDF or a medium's phase function.
+class ScatteringPoint final : public DirectionWeight {
+ public:
+  ScatteringPoint(const Bsdf& bsdf, const Vec3& wo) : bsdf_(&bsdf), wo_(wo) {}
+  ScatteringPoint(const PhaseFunction& phase, const Vec3& wo) : phase_(&phase), wo_(wo) {}
+
+  /// BSDF × |cos|, or the phase function.
+  Rgb scattered(const Vec3& wi) const {
+    return bsdf_ ? bsdf_->f(wo_, wi) * bsdf_->absCosTheta(wi) : Rgb(phase_->p(wo_, wi));
+  }
+  float weight(const Vec3& wi) const override {
+    // Where the BSDF hardly varies, its cosine says all that a weight needs.
+    if (bsdf_ && bsdf_->isDiffuse() && !bsdf_->transmits()) return bsdf_->absCosTheta(wi);
+    return scattered(wi).luminance();
+  }
+  float pdf(const Vec3& wi) const { return bsdf_ ? bsdf_->pdf(wo_, wi) : phase_->p(wo_, wi); }
+  const Bsdf* bsdf() const { return bsdf_; }
+  const PhaseFunction* phase() const { return phase_; }
+  const Vec3& wo() const { return wo_; }
+
+ private:
+  const Bsdf* bsdf_ = nullptr;
+  const PhaseFunction* phase_ = nullptr;
+  Vec3 wo_;
+};
+
+/// A direction drawn from a DirectionMixture.
+struct DrawnDirection {
+  Vec3 wi{0};
+  Rgb scattered;  ///< ScatteringPoint::scattered(), or what makes scattered / pdf the weight
+  float pdf = 0;
+  float ownPdf = 0;  ///< of the point's own sampling; of a specular draw the share of its choice
+  bool isSpecular = false;
+  bool isTransmission = false;  ///< by the BSDF's own sampling
+  float etaScale = 1;           ///< (ηt/ηi)² if transmitted
+};
+
+/// One-sample mixture (Veach 1997, §9.2.4) of a point's own sampling and a guide.
+class DirectionMixture {
+ public:
+  /// `guide` null: the point's own sampling alone. `ownShare` in (0, 1].
+  DirectionMixture(const ScatteringPoint& at, const LocalGuide* guide, float ownShare)
+      : at_(at), guide_(guide), ownShare_(guide ? ownShare : 1) {}
+
+  /// Density by solid angle of draws that are not specular.
+  float pdf(const Vec3& wi) const { return mixed(at_.pdf(wi), wi); }
+  /// None where nothing is scattered.
+  std::optional<DrawnDirection> sample(float uc, const Vec2& u, NumberSequence& more) const;
+
+ private:
+  float mixed(float ownPdf, const Vec3& wi) const {
+    return guide_ ? ownShare_ * ownPdf + (1 - ownShare_) * guide_->pdf(wi) : ownPdf;
+  }
+  std::optional<DrawnDirection> sampleOwn(float uc, const Vec2& u) const;
+
+  const ScatteringPoint& at_;
+  const LocalGuide* guide_;
+  float ownShare_;
+};
+
+}  // namespace lampyris

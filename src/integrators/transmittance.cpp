@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/transmittance.h"
+
+namespace lampyris {
+
+Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
+                  RayCounts& rays) {
+  ++rays.shadow;
+  const Geometry& geometry = *scene.geometry;
+  if (!scene.hasInterfaces) {
+    if (geometry.occluded(ray)) return Rgb();
+    return medium ? medium->transmittance(ray, numbers) : Rgb(1);
+  }
+  Rgb share(1);
+  for (int passed = 0; passed < kMaxInterfaces; ++passed) {
+    const auto hit = geometry.intersect(ray);
+    if (hit && geometry.primitive(*hit).material) return Rgb();
+    if (medium) {
+      Ray segment = ray;
+      if (hit) segment.tMax = hit->shape.t;
+      share *= medium->transmittance(segment, numbers);
+    }
+    if (!hit || share.isBlack()) return share;
+    const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);
+    medium = mediumBeyond(*at.primitive, medium, ray.d, at.n);
+    const Vec3 o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
+    ray.tMax -= dot(o - ray.o, ray.d);
+    ray.o = o;
+    if (!(ray.tMax > 0)) return share;
+  }
+  return Rgb();
+}
+
+}  // namespace lampyris

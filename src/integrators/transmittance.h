@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/scene.h"
+#include "integrators/render_loop.h"
+
+namespace lampyris {
+
+/// The medium that a ray is in which leaves a surface of `primitive` in direction `w`, having come
+/// through `current`.
+inline const Medium* mediumBeyond(const Primitive& primitive, const Medium* current, const Vec3& w,
+                                  const Vec3& n) {
+  return primitive.media.isTransition() ? primitive.media.towards(w, n) : current;
+}
+
+/// Share of the light that reaches the end of `ray` (unit direction), which starts within `medium`:
+/// 0 behind a surface with a material; surfaces without one are passed. An unbiased estimate.
+Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
+                  RayCounts& rays);
+
+/// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
+inline constexpr int kMaxInterfaces = 1000;
+
+}  // namespace lampyris

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// Path tracing with media (pbrt-v3's "volpath" in expectation) and, where there is a guide, with
+// directions from the mixture of the BSDF or phase function and the guide. Light sampling and the
+// path's next ray are joined by multiple importance sampling with that mixture's density; the next
+// ray serves as the other half, so no ray is traced for it alone. Cost a vertex: one shadow ray,
+// one ray, and a look-up of the guide.
+#include "integrators/volume_path.h"
+
+#include "integrators/aov_surface.h"
+#include "integrators/direction_mixture.h"
+#include "integrators/subsurface.h"
+#include "integrators/transmittance.h"
+
+namespace lampyris {
+
+namespace {
+
+/// Numbers a vertex takes: light (1), point on it (2), direction (2), lobe (1), roulette (1),
+/// distance in the medium before it (2), and one left out so that pairs keep even dimensions.
+constexpr uint32_t kDimensionsPerVertex = 10;
+constexpr uint32_t kDirectionOffset = 3, kRouletteOffset = 6, kDistanceOffset = 7, kSeedOffset = 9;
+constexpr int kFirstRouletteBounce = 4;
+/// Vertices of a path that are learned from, at most.
+constexpr size_t kMaxTurns = 64;
+
+}  // namespace
+
+struct VolumePathEstimator::Path {
+  Path(const CameraRay& camera, const Medium* around, SampleStream& s, RenderState& st)
+      : ray(camera.ray), differential(&camera.differential), medium(around), stream(s), state(st) {}
+
+  Ray ray;
+  const RayDifferential* differential;  ///< null after the first vertex
+  const Medium* medium;
+  SampleStream& stream;
+  RenderState& state;
+  GuidedMemory* memory = nullptr;  ///< null: nothing guides, nothing learns
+  bool learns = false;
+
+  Rgb radiance{}, throughput{1};
+  /// What the throughput would be, had the same way been drawn without a guide. Roulette goes by
+  /// it: a guide draws directions that matter more often, for which their throughput is smaller.
+  /// (By the larger of the two, so that it blows up no path that went against the guide.)
+  Rgb unguided{1};
+  float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
+  int bounces = 0, interfaces = 0;
+  bool distanceDrawn = false;  ///< since the last bounce, with the sampler's numbers
+  /// Light sampling at the last vertex could have found what the ray finds; `from` and `pdf` say
+  /// with which densities.
+  bool weighed = false;
+  LightSampleContext from{};
+  float pdf = 0;
+  bool entersBelow = false;  ///< a transmitted direction leads below the surface; no guide knows
+  bool below = false;        ///< it has
+  bool ownNumbers = false;   ///< the sampler's numbers of this bounce are used up
+  const Primitive* surface = nullptr;  ///< of the last vertex; null in a medium
+  Vec3 normal{0, 0, 1};                ///< there
+  NumberSequence numbers{0};           ///< whatever the sampler's dimensions do not cover
+
+  void setDimension(uint32_t offset) {
+    stream.setDimension(kFirstPathDimension +
+                        static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
+  }
+  void seedNumbers() {
+    stream.setDimension(kFirstPathDimension + kSeedOffset);
+    const SampleAddress& a = stream.address();
+    const uint64_t pixel =
+        hashCombine(static_cast<uint32_t>(a.pixel.x), static_cast<uint32_t>(a.pixel.y));
+    const auto seeded = std::bit_cast<uint32_t>(stream.next1D());
+    numbers = NumberSequence(hashCombine(hashCombine(pixel, a.index), seeded));
+  }
+};
+
+void GuidedMemory::finish(const Rgb& radiance) {
+  for (const Turn& t : turns) {
+    const Rgb found = (radiance - t.before) / t.throughput;  // 0/0 in channels that are lost
+    const Rgb clean(found.r > 0 ? found.r : 0.f, found.g > 0 ? found.g : 0.f,
+                    found.b > 0 ? found.b : 0.f);
+    GuideSample s = t.sample;
+    s.radiance = clean.luminance();
+    if (std::isfinite(s.radiance)) samples.push_back(s);
+  }
+  turns.clear();
+}
+
+VolumePathEstimator::VolumePathEstimator(const Scene& scene, const PathSettings& settings,
+                                         const LightDistribution* distribution,
+                                         const Guidance& guidance)
+    : scene_(scene),
+      lighting_(scene, LightStrategy::One, distribution, false),
+      settings_(settings),
+      guidance_(guidance),
+      scattersBelow_(scattersBelowSurfaces(scene)) {}
+
+std::unique_ptr<EstimatorMemory> VolumePathEstimator::makeMemory() const {
+  if (!guidance_.guide) return nullptr;
+  return std::make_unique<GuidedMemory>(guidance_.guide->makeLocal());
+}
+
+Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
+                                  RenderState& state) const {
+  Path path(camera, scene_.cameraMedium, stream, state);
+  path.memory = static_cast<GuidedMemory*>(state.memory.get());
+  path.learns = path.memory && guidance_.collect && stream.address().index % guidance_.stride == 0;
+  if (path.memory || scattersBelow_ || !scene_.media.empty()) path.seedNumbers();
+  while (true) {
+    ++state.rays.closest;
+    const auto hit = scene_.geometry->intersect(path.ray);
+    if (path.medium) {
+      const Event event = throughMedium(path, hit ? hit->shape.t : kInfinity);
+      if (event == Event::Ended) break;
+      if (event == Event::Scattered) continue;
+    }
+    if (hit) {
+      if (!onSurface(path, *hit)) break;
+      continue;
+    }
+    addEmission(path, path.weighed ? lighting_.foundOutside(path.from, path.pdf, path.ray.d)
+                                   : lighting_.outside(path.ray.d));
+    break;
+  }
+  if (path.learns) path.memory->finish(path.radiance);
+  return path.radiance;
+}
+
+/// Goes through the medium up to `tMax`, or scatters in it.
+VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float tMax) const {
+  Ray segment = path.ray;
+  segment.tMax = tMax;
+  MediumSample s;
+  if (path.distanceDrawn) {
+    s = path.medium->sample(segment, path.numbers);
+  } else {
+    path.distanceDrawn = true;
+    path.setDimension(kDistanceOffset);
+    NumberSequence numbers = path.numbers.fork(path.stream.next2D());
+    s = path.medium->sample(segment, numbers);
+  }
+  path.throughput *= s.weight;
+  path.unguided *= s.weight;
+  if (path.throughput.isBlack()) return Event::Ended;
+  if (!s.scatters) return Event::Surface;
+  if (path.bounces >= settings_.maxDepth || !survives(path)) return Event::Ended;
+
+  const Vec3 p = segment.at(s.t), wo = -path.ray.d;
+  path.surface = nullptr;
+  path.from = LightSampleContext();
+  path.from.p = p;
+  path.from.wo = wo;
+  path.ray.o = p;
+  const ScatteringPoint point(path.medium->phase(), wo);
+  return scatter(path, point, GuidePoint{p}) ? Event::Scattered : Event::Ended;
+}
+
+/// Adds the emission of a surface and leaves it; false: the path ends.
+bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
+  const Primitive& primitive = scene_.geometry->primitive(hit);
+  const bool last = path.bounces >= settings_.maxDepth;
+  if (last && !primitive.light && primitive.material) return false;
+  const Material* material = primitive.material;
+  const bool footprint = path.differential && material && material->wantsDifferentials();
+  SurfaceInteraction at = scene_.geometry->surface(path.ray, hit,
+                                                   footprint  ? SurfaceDetail::Full
+                                                   : material ? material->detail()
+                                                              : SurfaceDetail::Basic);
+  if (primitive.light)
+    addEmission(path, path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
+                                   : primitive.light->emitted(at, at.wo));
+  if (!material) {
+    if (++path.interfaces > kMaxInterfaces) return false;
+    path.differential = nullptr;
+    path.medium = mediumBeyond(primitive, path.medium, path.ray.d, at.n);
+    path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);
+    return true;
+  }
+  if (last || !survives(path)) return false;
+  if (footprint) at.computeDifferentials(*path.differential);
+  material->evaluate(at, path.state.bsdf);
+  if (path.state.bsdf.empty()) return false;
+  path.surface = &primitive;
+  return shade(path, at, material);
+}
+
+/// Turns at a surface whose BSDF is set. `material` is null where light has entered below it.
+bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
+                                const Material* material) const {
+  const Bsdf& bsdf = path.state.bsdf;
+  if (path.state.aov && path.bounces == 0 && material) {
+    path.setDimension(kDirectionOffset);
+    recordSurface(*path.state.aov, at, bsdf, path.stream);
+  }
+  path.normal = at.n;
+  path.from = LightSampleContext(at, bsdf);
+  const GuidePoint where{at.p, faceForward(at.n, at.wo), bsdf.transmits()};
+  path.entersBelow = scattersBelow_ && material && material->scattersBelow();
+  path.below = false;
+  if (!scatter(path, ScatteringPoint(bsdf, at.wo), where)) return false;
+  return !path.below || enterBelow(path, at, *material);
+}
+
+/// Goes on where light that leaves at `at` has entered the body. As in pbrt-v3 that is no bounce.
+bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
+                                     const Material& material) const {
+  BssrdfStorage storage;
+  const Bssrdf* bssrdf = material.bssrdf(at, storage);
+  if (!bssrdf) return true;
+  --path.bounces;
+  const Frame frame = path.state.bsdf.frame();
+  const float uc = path.numbers.next();
+  const auto entry =
+      sampleSubsurfaceEntry(*scene_.geometry, material, *bssrdf, at, frame, path.ray.time, uc,
+                            path.numbers.next2(), path.state.rays);
+  if (!entry) return false;
+  path.throughput *= entry->weight;
+  path.unguided *= entry->weight;
+  path.surface = entry->at.primitive;
+  path.state.bsdf.reset(entry->at);
+  bssrdf->addEntryLobe(path.state.bsdf);
+  path.ownNumbers = true;
+  return shade(path, entry->at, nullptr);
+}
+
+/// Adds what a ray finds of a light. Guides do not learn it where light sampling finds it as well:
+/// they are for light that comes by other ways.
+void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
+  const Rgb added = path.throughput * found;
+  path.radiance += added;
+  if (path.learns && path.weighed && !path.memory->turns.empty())
+    path.memory->turns.back().before += added;
+}
+
+/// Russian roulette with the probabilities of pbrt-v3.
+bool VolumePathEstimator::survives(Path& path) const {
+  if (path.bounces <= kFirstRouletteBounce) return true;
+  const float most =
+      std::max(path.unguided.maxComponent(), path.throughput.maxComponent()) * path.etaScale;
+  if (!(most < settings_.rrThreshold)) return true;
+  const float end = std::max(0.05f, 1 - most);
+  path.setDimension(kRouletteOffset);
+  if (path.stream.next1D() < end) return false;
+  path.throughput /= 1 - end;
+  path.unguided /= 1 - end;
+  return true;
+}
+
+/// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
+bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
+                                  const GuidePoint& where) const {
+  const bool specular = point.bsdf() && point.bsdf()->isSpecular();
+  const LocalGuide* guide = nullptr;
+  if (path.memory && guidance_.use && !specular && !path.entersBelow) {
+    ++path.memory->lookups;
+    if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
+  }
+  const DirectionMixture mixture(point, guide, guidance_.ownShare);
+  if (lighting_.hasLights() && !specular) path.radiance += lightAt(path, mixture, point);
+  // Where rays find no light, the last one need not be traced.
+  if (path.bounces + 1 >= settings_.maxDepth && !path.entersBelow && !lighting_.hasVisibleLights())
+    return false;
+
+  path.setDimension(kDirectionOffset);
+  const Vec2 u = path.ownNumbers ? path.numbers.next2() : path.stream.next2D();
+  const float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
+  const auto d = mixture.sample(uc, u, path.numbers);
+  if (!d) return false;
+  path.throughput *= d->scattered / d->pdf;
+  if (path.throughput.isBlack()) return false;
+  if (d->ownPdf > 0) path.unguided *= d->scattered / d->ownPdf;
+  path.below = path.entersBelow && d->isTransmission;
+  if (!path.below) path.etaScale *= d->etaScale;
+  path.weighed = !d->isSpecular;
+  path.pdf = d->pdf;
+  if (path.memory && !specular) {
+    ++path.memory->drawn;
+    path.memory->guided += guide != nullptr;
+    if (path.learns && !d->isSpecular && !path.below) remember(path, where, *d);
+  }
+  path.differential = nullptr;
+  path.interfaces = 0;
+  path.distanceDrawn = false;
+  path.ownNumbers = false;
+  path.medium = mediumTowards(path, d->wi);
+  if (path.surface) path.ray.o = offsetRayOrigin(path.from.p, path.from.pError, path.from.n, d->wi);
+  path.ray.d = d->wi;
+  path.ray.tMax = kInfinity;
+  ++path.bounces;
+  return true;
+}
+
+/// The medium of a ray that leaves the last vertex.
+const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w) const {
+  return path.surface ? mediumBeyond(*path.surface, path.medium, w, path.normal) : path.medium;
+}
+
+Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
+                                 const ScatteringPoint& point) const {
+  path.setDimension(0);
+  const auto drawn = lighting_.drawLight(path.from, path.stream);
+  if (!drawn) return Rgb();
+  const Vec3& wi = drawn->light.wi;
+  const Rgb scattered = point.scattered(wi);
+  if (scattered.isBlack()) return Rgb();
+  Ray ray = lighting_.shadowRay(path.from, path.ray.time, drawn->light);
+  const Rgb share =
+      transmittance(scene_, ray, mediumTowards(path, wi), path.numbers, path.state.rays);
+  if (share.isBlack()) return Rgb();
+  const float weight = DirectLighting::lightWeight(*drawn, drawn->isDelta ? 0 : mixture.pdf(wi));
+  return path.throughput * drawn->light.radiance * scattered * share * (weight / drawn->density);
+}
+
+void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
+                                   const DrawnDirection& d) const {
+  if (path.memory->turns.size() >= kMaxTurns) return;
+  const Vec3 n = where.onSurface() ? faceForward(where.n, d.wi) : Vec3(0);
+  path.memory->turns.push_back({{where.p, n, d.wi, 0, d.pdf}, path.throughput, path.radiance});
+}
+
+}  // namespace lampyris

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Path tracing through participating media, with or without a guide: what the integrators
+/// "volpath" and "guidedpath" share.
+#pragma once
+
+#include "guiding/guide.h"
+#include "integrators/direct_lighting.h"
+#include "integrators/path_integrator.h"
+
+namespace lampyris {
+
+/// What a tile's paths leave for a guide to learn from, and the guide's place of work.
+class GuidedMemory final : public EstimatorMemory {
+ public:
+  explicit GuidedMemory(std::unique_ptr<LocalGuide> local) : local(std::move(local)) {}
+
+  /// A direction that a path took: its radiance is what the path finds from there on.
+  struct Turn {
+    GuideSample sample;
+    Rgb throughput, before;  ///< after the turn; radiance of the path until then
+  };
+  /// Ends a path: turns its turns into samples.
+  void finish(const Rgb& radiance);
+
+  std::unique_ptr<LocalGuide> local;
+  std::vector<Turn> turns;
+  std::vector<GuideSample> samples;
+  uint64_t lookups = 0, guided = 0, drawn = 0;
+};
+
+/// How a path is guided. `guide` null: not at all.
+struct Guidance {
+  const Guide* guide = nullptr;
+  float ownShare = 0.5f;  ///< of the BSDF or phase function in the mixture
+  bool use = true;        ///< false: samples are collected only
+  bool collect = false;
+  uint64_t stride = 1;  ///< of every so many samples of a pixel, one is learned from
+};
+
+class VolumePathEstimator final : public RadianceEstimator {
+ public:
+  VolumePathEstimator(const Scene& scene, const PathSettings& settings,
+                      const LightDistribution* distribution, const Guidance& guidance);
+
+  Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
+  std::unique_ptr<EstimatorMemory> makeMemory() const override;
+
+ private:
+  struct Path;
+  enum class Event : uint8_t { Ended, Scattered, Surface };
+  Event throughMedium(Path& path, float tMax) const;
+  bool onSurface(Path& path, const Hit& hit) const;
+  void addEmission(Path& path, const Rgb& found) const;
+  bool survives(Path& path) const;
+  bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
+  bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
+  bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
+  Rgb lightAt(Path& path, const class DirectionMixture& mixture,
+              const class ScatteringPoint& point) const;
+  const Medium* mediumTowards(const Path& path, const Vec3& w) const;
+  void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;
+
+  const Scene& scene_;
+  const DirectLighting lighting_;
+  const PathSettings settings_;
+  const Guidance& guidance_;
+  const bool scattersBelow_;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guiding/significance_cache.h"
+
+#include <gtest/gtest.h>
+
+#include "core/frame.h"
+#include "core/parallel.h"
+#include "core/sampling.h"
+#include "support/statistics.h"
+
+namespace lampyris::test {
+
+namespace {
+
+const Bounds3 kUnitBox(Vec3(0), Vec3(1));
+
+class Even final : public DirectionWeight {
+ public:
+  explicit Even(const Vec3& n) : n_(n) {}
+  float weight(const Vec3& wi) const override {
+    return n_ == Vec3(0) ? 1 : std::max(0.f, dot(wi, n_));
+  }
+
+ private:
+  Vec3 n_;
+};
+
+/// Teaches a cache the radiance `light(w)` at random points of a plane with normal `n` (0: of a
+/// box), by directions that are uniform over the sphere above.
+void teach(SignificanceCache& cache, const Vec3& n, float (*light)(const Vec3&), uint64_t passes,
+           int count = 4000) {
+  for (uint64_t pass = 0; pass < passes; ++pass) {
+    std::vector<GuideSample> samples;
+    for (int i = 0; i < count; ++i) {
+      const auto u = [&](uint32_t d) { return uniform(pass + 1, static_cast<uint64_t>(i), d); };
+      GuideSample s;
+      s.p = Vec3(u(0), u(1), n == Vec3(0) ? u(2) : 0.5f);
+      s.n = n;
+      s.wi = sampleUniformSphere({u(3), u(4)});
+      s.pdf = 1 / (4 * kPi);
+      if (n != Vec3(0) && dot(s.wi, n) < 0) s.wi = -s.wi;
+      if (n != Vec3(0)) s.pdf *= 2;
+      s.radiance = light(s.wi);
+      samples.push_back(s);
+    }
+    cache.learn(samples);
+    cache.endPass();
+  }
+}
+
+const Vec3 kUp(0, 0, 1);
+const Vec3 kLow = normalize(Vec3(1, 0.3f, 0.2f)), kHigh = normalize(Vec3(-0.3f, 0.2f, 1));
+
+float twoPatches(const Vec3& w) {
+  return (dot(w, kLow) > 0.98f ? 30.f : 0.f) + (dot(w, kHigh) > 0.9f ? 10.f : 0.f);
+}
+
+TEST(SignificanceCache, FindsWhatItWasTaught) {
+  SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
+  teach(cache, kUp, twoPatches, 6);
+  const auto local = cache.makeLocal();
+  ASSERT_TRUE(local->moveTo({Vec3(0.5f), kUp, false}, Even(kUp)));
+  // Of both patches, and far more than elsewhere.
+  EXPECT_GT(local->pdf(kLow), 1.f);
+  EXPECT_GT(local->pdf(kHigh), 1.f);
+  EXPECT_LT(local->pdf(normalize(Vec3(0, -1, 0.5f))), 0.02f);
+  // Surfaces that face another way, and media, know nothing of it.
+  EXPECT_FALSE(local->moveTo({Vec3(0.5f), -kUp, false}, Even(-kUp)));
+  EXPECT_FALSE(local->moveTo({Vec3(0.5f), Vec3(0), false}, Even(Vec3(0))));
+}
+
+TEST(SignificanceCache, ExponentsFitTheLight) {
+  // A patch of cos > c: mean cosine (1 + c)/2 = (e + 1)/(e + 2).
+  for (const float c : {0.5f, 0.9f, 0.98f}) {
+    static float edge;
+    edge = c;
+    SignificanceCache cache({1, 4, 1000}, kUnitBox);
+    teach(
+        cache, kUp, [](const Vec3& w) { return w.z > edge ? 1.f : 0.f; }, 6, 20'000);
+    const auto lobes = cache.find(Vec3(0.5f), kUp).lobes;
+    ASSERT_FALSE(lobes.empty());
+    float flux = 0, cosines = 0;
+    for (const auto& l : lobes) {
+      const auto n = static_cast<float>(lobeExponent(l.level));
+      flux += l.flux;
+      cosines += l.flux * l.axis.z * (n + 1) / (n + 2);
+    }
+    EXPECT_NEAR(flux, 2 * kPi * (1 - c), 0.15f * flux) << c;
+    // Levels round the exponent up by half at most.
+    EXPECT_NEAR(1 - cosines / flux, (1 - c) / 2, 0.4f * (1 - c) / 2) << c;
+  }
+}
+
+TEST(SignificanceCache, MixtureSamplingMatchesItsPdf) {
+  for (const bool volume : {false, true})
+    for (const bool transmits : {false, true}) {
+      const Vec3 n = volume ? Vec3(0) : kUp;
+      SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
+      teach(cache, n, twoPatches, 4);
+      if (transmits)
+        teach(
+            cache, -n, [](const Vec3& w) { return w.x > 0.5f ? 1.f : 0.1f; }, 4);
+      const auto local = cache.makeLocal();
+      class Both final : public DirectionWeight {
+       public:
+        float weight(const Vec3& wi) const override { return 0.1f + std::abs(wi.z); }
+      };
+      ASSERT_TRUE(local->moveTo({Vec3(0.4f), n, transmits}, Both()));
+      uint64_t draws = 0;
+      DirectionTest test;
+      test.samples = 100'000;
+      test.subdivisions = 24;
+      test.sample = [&](const Vec2& u, float uc, Vec3& w) {
+        NumberSequence more(++draws);
+        w = local->sample(uc, u, more);
+        return true;
+      };
+      test.pdf = [&](const Vec3& w) { return static_cast<double>(local->pdf(w)); };
+      EXPECT_EQ(directionChiSquareTest(test), "") << volume << transmits;
+    }
+}
+
+TEST(SignificanceCache, IsTheSameForAnyNumberOfThreads) {
+  std::vector<float> first;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    SignificanceCache cache({0.1f, 8, 3000}, kUnitBox);
+    teach(cache, kUp, twoPatches, 5, 20'000);
+    std::vector<float> all;
+    for (float x = 0.01f; x < 1; x += 0.03f)
+      for (const auto& l : cache.find(Vec3(x, 1 - x, 0.5f), kUp).lobes) {
+        all.push_back(l.flux);
+        all.push_back(l.axis.x);
+      }
+    EXPECT_GT(all.size(), 20u);
+    if (first.empty()) first = all;
+    EXPECT_EQ(all, first);
+  }
+}
+
+TEST(SignificanceCache, CellsDivideWhereSamplesAre) {
+  SignificanceCache cache({0.9f, 8, 100'000}, kUnitBox);
+  teach(cache, kUp, twoPatches, 3, 40'000);
+  size_t nodes = 0;
+  for (const CellTree& t : cache.trees()) nodes += t.nodes().size();
+  EXPECT_GE(nodes, 3 * cache.trees().size());
+}
+
+/// Any input, in a scene of one point, and in one 10⁶ units wide.
+void stress(int passes, int samplesPerPass) {
+  for (const float extent : {0.f, 1e6f}) {
+    const int most = 2000;
+    SignificanceCache cache({0.1f, 8, most}, Bounds3(Vec3(0), Vec3(extent)));
+    const auto local = cache.makeLocal();
+    for (int pass = 0; pass < passes; ++pass) {
+      std::vector<GuideSample> samples(static_cast<size_t>(samplesPerPass));
+      for (size_t i = 0; i < samples.size(); ++i) {
+        const auto u = [&](uint32_t d) { return uniform(static_cast<uint64_t>(pass), i, d); };
+        GuideSample& s = samples[i];
+        s.p = extent * Vec3(u(0), u(1), u(2));
+        s.wi = sampleUniformSphere({u(3), u(4)});
+        s.n = i % 3 == 0 ? Vec3(0) : faceForward(kUp, s.wi);
+        s.pdf = std::pow(10.f, 20 * u(5) - 12);
+        s.radiance = i % 5 == 0 ? 0 : std::pow(10.f, 24 * u(6) - 12);
+      }
+      cache.learn(samples);
+      cache.endPass();
+      ASSERT_LE(cache.recordCount(), static_cast<size_t>(most));
+      ASSERT_LE(cache.memory(), size_t{4} << 20);
+      for (int i = 0; i < 20; ++i) {
+        const GuideSample& s = samples[static_cast<size_t>(i)];
+        if (!local->moveTo({s.p, s.n, i % 2 == 0}, Even(s.n))) continue;
+        NumberSequence more(1);
+        const Vec3 w = local->sample(0.3f, {0.2f, 0.7f}, more);
+        ASSERT_TRUE(isFinite(w));
+        ASSERT_GT(local->pdf(w), 0);
+        ASSERT_TRUE(std::isfinite(local->pdf(w)));
+      }
+    }
+    EXPECT_GT(cache.recordCount(), 0u) << extent;
+  }
+}
+
+TEST(SignificanceCache, SurvivesAnything) { stress(100, 2000); }
+/// Takes a while.
+TEST(SignificanceCache, DISABLED_SurvivesAThousandPassesOfAnything) { stress(1000, 5000); }
+
+}  // namespace
+
+}  // namespace lampyris::test
