@@ -3,6 +3,6 @@
 
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_INTEGRATORS(PLUGIN) \
-  PLUGIN(path) PLUGIN(pathTree) PLUGIN(volpath) PLUGIN(directLighting)
+  PLUGIN(path) PLUGIN(pathTree) PLUGIN(volpath) PLUGIN(guidedPath) PLUGIN(directLighting)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// T. Bashford-Rogers, K. Debattista and A. Chalmers 2012, "A Significance Cache for Accelerating
+// Global Illumination": path tracing whose next directions come from a mixture of the BSDF and a
+// guide that learns from the paths. Each pass is unbiased given the passes before it, for the guide
+// stands still meanwhile; passes double, and the image is their mean by sample counts.
+#include "integrators/guided_path.h"
+
+#include "guiding/guides.h"
+
+namespace lampyris {
+
+namespace {
+
+/// Samples that a pass may leave to be learned from: bounds memory and time.
+constexpr double kSamplesPerPass = 1 << 20;
+/// Until a first pass has shown how many a path leaves.
+constexpr double kFirstGuess = 8;
+
+struct GuidedPathParameters {
+  PathSettings settings;
+  std::string lightSampler;
+  GuideSettings guide;
+  float ownShare = 0.5f;
+
+  void declare(Declaration& d) {
+    settings.declare(d);
+    d.add("lightsampler", lightSampler, "Which light to sample at a point; see kind lightsampler.")
+        .alias("lightsamplestrategy")
+        .defaultIs("bvh");
+    guide.declare(d);
+    d.add("bsdffraction", ownShare,
+          "Share of directions drawn from the BSDF or phase function where there is a guide.")
+        .range(0.01, 1);
+  }
+};
+
+class GuidedPathIntegrator final : public Integrator {
+ public:
+  GuidedPathIntegrator(const GuidedPathParameters& parameters,
+                       std::unique_ptr<LightDistribution> distribution)
+      : parameters_(parameters), distribution_(std::move(distribution)) {}
+
+  uint64_t render(RenderContext& context) const override {
+    const PathSettings& settings = parameters_.settings;
+    if (context.options.firstSample > 0)
+      throw SceneError(settings.location,
+                       "integrator \"guidedpath\" learns while it renders and cannot go on from a "
+                       "checkpoint");
+    const PixelBounds pixels =
+        renderedPixels(context.film, settings.pixelBounds, settings.location);
+    const auto guide = makeGuide(parameters_.guide, context.scene);
+    Guidance guidance;
+    guidance.guide = guide.get();
+    guidance.ownShare = parameters_.ownShare;
+    const VolumePathEstimator estimator(context.scene, settings, distribution_.get(), guidance);
+    if (!guide) return renderPasses(context, pixels, estimator);
+    GuideTrainer trainer(*guide, guidance, pixels.area());
+    const uint64_t samples = renderPasses(context, pixels, estimator, &trainer);
+    trainer.report(context.statistics);
+    return samples;
+  }
+  bool rendersMedia() const override { return true; }
+  bool resumes() const override { return parameters_.guide.name == "none"; }
+
+ private:
+  const GuidedPathParameters parameters_;
+  const std::unique_ptr<LightDistribution> distribution_;
+};
+
+std::unique_ptr<Integrator> create(const GuidedPathParameters& p,
+                                   const IntegratorContext& context) {
+  GuidedPathParameters parameters = p;
+  parameters.settings.location = context.location;
+  return std::make_unique<GuidedPathIntegrator>(parameters,
+                                                context.lightDistribution(p.lightSampler));
+}
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void GuideTrainer::beginPass(const Pass& pass) {
+  pass_ = pass;
+  tiles_.resize(pass.tiles);
+  guidance_.use = passes_ > 0;
+  guidance_.collect = !pass.isLast;
+  const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
+  const double expected = static_cast<double>(pass.samples) * pixels_ * perPath;
+  guidance_.stride =
+      static_cast<uint64_t>(std::clamp(std::ceil(expected / kSamplesPerPass), 1., 1e15));
+}
+
+void GuideTrainer::tileDone(size_t tile, RenderState& state) {
+  auto& memory = static_cast<GuidedMemory&>(*state.memory);
+  tiles_[tile] = std::move(memory.samples);
+  const std::lock_guard lock(mutex_);
+  lookups_ += memory.lookups;
+  guided_ += memory.guided;
+  drawn_ += memory.drawn;
+}
+
+void GuideTrainer::endPass() {
+  ++passes_;
+  if (pass_.isLast) return;
+  const double start = secondsNow();
+  double samples = 0;
+  for (std::vector<GuideSample>& tile : tiles_) {
+    guide_.learn(tile);
+    samples += static_cast<double>(tile.size());
+    tile = {};
+  }
+  guide_.endPass();
+  const double paths = pixels_ * std::max(1., std::floor(static_cast<double>(pass_.samples) /
+                                                         static_cast<double>(guidance_.stride)));
+  samplesPerPath_ = samples / paths;
+  seconds_ += secondsNow() - start;
+}
+
+void GuideTrainer::report(Statistics& statistics) const {
+  guide_.report(statistics);
+  statistics.set("guide", "passes", passes_);
+  statistics.set("guide", "look-ups", static_cast<double>(lookups_));
+  statistics.set("guide", "share of directions with a guide",
+                 drawn_ > 0 ? static_cast<double>(guided_) / static_cast<double>(drawn_) : 0);
+  statistics.set("guide", "seconds of learning", seconds_);
+}
+
+IntegratorRegistry::Entry guidedPathPlugin() {
+  return makePlugin("guidedpath",
+                    "Path tracing, with media, guided by what earlier passes have found.", create);
+}
+
+}  // namespace lampyris

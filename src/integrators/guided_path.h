@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <mutex>
+
+#include "integrators/volume_path.h"
+
+namespace lampyris {
+
+/// Feeds a guide with the samples of each pass, in the order of the tiles.
+class GuideTrainer final : public PassObserver {
+ public:
+  /// `guidance` is what the paths see; its guide is `guide`. `pixels`: how many are rendered.
+  GuideTrainer(Guide& guide, Guidance& guidance, int64_t pixels)
+      : guide_(guide), guidance_(guidance), pixels_(static_cast<double>(pixels)) {}
+
+  void beginPass(const Pass& pass) override;
+  void tileDone(size_t tile, RenderState& state) override;
+  void endPass() override;
+  void report(Statistics& statistics) const;
+
+ private:
+  Guide& guide_;
+  Guidance& guidance_;
+  const double pixels_;
+  Pass pass_;
+  std::vector<std::vector<GuideSample>> tiles_;
+  double samplesPerPath_ = 0;  ///< learned from, of a path that is learned from
+  int passes_ = 0;
+  double seconds_ = 0;
+
+  std::mutex mutex_;  ///< guards the counts
+  uint64_t lookups_ = 0, guided_ = 0, drawn_ = 0;
+};
+
+}  // namespace lampyris

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "support/statistics.h"
+#include "support/tiny_scenes.h"
+
+namespace lampyris::test {
+
+namespace {
+
+/// A room lit through a gap, with matte, glossy, translucent and glass surfaces.
+const std::string kRoom =
+    "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\nTranslate 1.4 0 1.9\n"
+    "Rotate 180 1 0 0\n" +
+    square(0.3f) + "AttributeEnd\nAttributeBegin\n" + matte(0.6f) +
+    "ReverseOrientation\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 5 4 7 6 0 4 5 "
+    "0 5 1 1 5 6 1 6 2 2 6 7 2 7 3 3 7 4 3 4 0] \"point P\" [-2 -2 0 2 -2 0 2 2 0 -2 2 0 -2 -2 2 "
+    "2 -2 2 2 2 2 -2 2 2]\nAttributeEnd\n"
+    "AttributeBegin\nMaterial \"translucent\"\nTranslate 0.7 0 0.8\nRotate 80 0 1 0\n" +
+    square(0.8f) +
+    "AttributeEnd\nAttributeBegin\nMaterial \"plastic\" \"float roughness\" 0.1\nTranslate -0.6 "
+    "-0.3 0.3\nShape \"sphere\" \"float radius\" 0.3\nAttributeEnd\n"
+    "AttributeBegin\nMaterial \"glass\"\nTranslate 0 0.5 0.3\nShape \"sphere\" \"float radius\" "
+    "0.3\nAttributeEnd\n";
+
+const std::string kMist =
+    "MakeNamedMedium \"mist\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.05 0.05 0.05] "
+    "\"rgb sigma_s\" [0.4 0.4 0.4] \"float g\" 0.3\nMediumInterface \"mist\" \"mist\"\n";
+
+TinyView view(const std::string& integrator, int resolution = 24) {
+  TinyView v;
+  v.integrator = integrator;
+  v.lookAt = "-1.7 -1.7 1.2  0 0 0.6  0 0 1";
+  v.camera = R"("perspective" "float fov" 60)";
+  v.resolution = resolution;
+  return v;
+}
+
+std::vector<double> render(const std::string& integrator, const std::string& world, uint64_t seed,
+                           uint64_t samples) {
+  BuildOptions options;
+  options.seed = seed;
+  TinyScene scene(tinyScene(view(integrator), world), options);
+  scene.render(samples);
+  EXPECT_EQ(scene.badSamples(), 0);
+  EXPECT_EQ(scene.warnings(), "");
+  return scene.greens();
+}
+
+void expectSameMean(const std::string& a, const std::string& b, const std::string& world,
+                    uint64_t samples) {
+  std::vector<double> difference = render(a, world, 1, samples);
+  const auto other = render(b, world, 77, samples);
+  for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i];
+  EXPECT_EQ(meanTest(difference, 0), "") << a << " against " << b;
+}
+
+TEST(GuidedPath, HasTheMeanOfVolpath) {
+  const std::string volpath = R"("volpath" "integer maxdepth" 6)";
+  for (const std::string& world : {kRoom, kMist + kRoom}) {
+    expectSameMean(R"("guidedpath" "integer maxdepth" 6)", volpath, world, 64);
+    expectSameMean(R"("guidedpath" "integer maxdepth" 6 "float bsdffraction" 0.1)", volpath, world,
+                   64);
+  }
+  expectSameMean(R"("guidedpath" "integer maxdepth" 6 "integer ncache" 1 "float radius" 0.5)",
+                 volpath, kRoom, 64);
+}
+
+TEST(GuidedPath, WithoutAGuideItIsVolpath) {
+  const auto a = render(R"("guidedpath" "string guide" "none")", kMist + kRoom, 3, 4);
+  EXPECT_EQ(a, render(R"("volpath")", kMist + kRoom, 3, 4));
+}
+
+TEST(GuidedPath, ImageDoesNotDependOnThreads) {
+  std::string first;
+  for (const int threads : {1, 4, 3}) {
+    const ThreadLimit limit(threads);
+    TinyScene scene(tinyScene(view(R"("guidedpath")", 33), kMist + kRoom));
+    scene.render(16);
+    if (first.empty()) first = scene.film().save();
+    EXPECT_TRUE(scene.film().save() == first) << threads << " threads";
+    EXPECT_GT(scene.statistics().value("guide", "records"), 0);
+  }
+}
+
+TEST(GuidedPath, GuidesWhereLightIsHardToFind) {
+  // A lamp in a box that is open above: all light comes from a spot on the ceiling.
+  const std::string uplight =
+      matte(0.7f) +
+      "ReverseOrientation\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 "
+      "5 4 7 6 0 4 5 0 5 1 1 5 6 1 6 2 2 6 7 2 7 3 3 7 4 3 4 0] \"point P\" [-2 -2 0 2 "
+      "-2 0 2 2 0 -2 2 0 -2 -2 2 2 -2 2 2 2 2 -2 2 2]\nReverseOrientation\nTranslate "
+      "1 1 1.5\nShape \"cylinder\" \"float radius\" 0.25 \"float zmin\" -0.1 "
+      "\"float zmax\" 0.35\nAreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n" +
+      square(0.15f);
+  // Variance over seeds, pixel by pixel.
+  const auto variance = [&](const std::string& integrator) {
+    const auto a = render(integrator, uplight, 1, 128), b = render(integrator, uplight, 2, 128);
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
+  };
+  EXPECT_LT(variance(R"("guidedpath")"), 0.9 * variance(R"("volpath")"));
+}
+
+TEST(GuidedPath, MemoryIsBounded) {
+  TinyScene scene(tinyScene(view(R"("guidedpath" "integer maxrecords" 50)"), kRoom));
+  scene.render(32);
+  EXPECT_LE(scene.statistics().value("guide", "records"), 50);
+  EXPECT_GT(scene.statistics().value("guide", "records"), 5);
+  TinyScene none(tinyScene(view(R"("guidedpath" "integer maxrecords" 0)"), kRoom));
+  none.render(8);
+  EXPECT_EQ(none.statistics().value("guide", "records"), 0);
+}
+
+TEST(GuidedPath, ScaleDoesNotMatter) {
+  for (const std::string s : {"1e-4", "1e4"}) {
+    TinyScene scene(tinyScene(
+        [&] {
+          TinyView v = view(R"("guidedpath")");
+          v.lookAt = "-1.7 -1.7 1.2  0 0 0.6  0 0 1\nScale 1 1 1";
+          return v;
+        }(),
+        "Scale " + s + " " + s + " " + s + "\n" + kRoom));
+    EXPECT_NO_THROW(scene.render(8));
+    EXPECT_EQ(scene.badSamples(), 0);
+  }
+}
+
+TEST(GuidedPath, SceneOfOnePointAndEmptyScenes) {
+  for (const std::string& world :
+       {std::string("LightSource \"infinite\"\n"), std::string("LightSource \"point\"\n"),
+        kMist + "LightSource \"infinite\"\n", std::string()}) {
+    TinyScene scene(tinyScene(view(R"("guidedpath")", 4), world));
+    scene.render(16);
+    EXPECT_EQ(scene.badSamples(), 0);
+  }
+}
+
+TEST(GuidedPath, DoesNotResume) {
+  TinyScene scene(tinyScene(view(R"("guidedpath")", 4), kRoom));
+  EXPECT_FALSE(scene.job().integrator->resumes());
+  RenderOptions options;
+  options.firstSample = 4;
+  options.sampleCount = 8;
+  EXPECT_THROW(scene.render(options), SceneError);
+}
+
+}  // namespace
+
+}  // namespace lampyris::test
