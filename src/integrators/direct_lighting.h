@@ -60,7 +60,6 @@ class DirectLighting {
                   const Vec2& u, RayCounts& rays) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
                    float lightPdf) const;
-  bool occluded(const LightSampleContext& at, float time, const LightSample& light) const;
 
   const Scene& scene_;
   const LightStrategy strategy_;
