@@ -7,16 +7,41 @@ namespace lampyris {
 
 namespace {
 
-struct Children {
-  uint32_t left, right;
-  double leftImportance, rightImportance;
+/// A way down the tree from a cluster. Sampling and pmf both take it.
+class Descent {
+ public:
+  Descent(std::span<const LinearLightBVHNode> nodes, const BrdfReceiver& at, uint32_t from,
+          bool flat)
+      : nodes_(nodes), at_(at), node_(from), flat_(flat) {}
 
-  Children(std::span<const LinearLightBVHNode> nodes, uint32_t parent, const BrdfReceiver& at)
-      : left(parent + 1),
-        right(nodes[parent].rightChild()),
-        leftImportance(at.importance(nodes[left])),
-        rightImportance(at.importance(nodes[right])) {}
-  double sum() const { return leftImportance + rightImportance; }
+  uint32_t node() const { return node_; }
+  bool atLeaf() const { return nodes_[node_].isLeaf(); }
+  /// Goes to the child that choose(left importance, right importance, right child) says (true:
+  /// left). Returns the probability of that; 0 if no child can contribute.
+  template <class Choose>
+  double step(const Choose& choose) {
+    const uint32_t leftNode = node_ + 1, rightNode = nodes_[node_].rightChild();
+    // The next level's nodes, as in childImportances().
+    __builtin_prefetch(nodes_.data() + nodes_[leftNode].light());
+    __builtin_prefetch(nodes_.data() + nodes_[rightNode].light());
+    const BrdfReceiver::Estimate left = estimate(leftNode), right = estimate(rightNode);
+    const double sum = left.importance + right.importance;
+    if (!(sum > 0)) return 0;
+    const bool goLeft = choose(left.importance, right.importance, rightNode);
+    node_ = goLeft ? leftNode : rightNode;
+    flat_ = flat_ || (goLeft ? left : right).flat;
+    return (goLeft ? left : right).importance / sum;
+  }
+
+ private:
+  BrdfReceiver::Estimate estimate(uint32_t node) const {
+    if (!flat_) return at_.estimate(nodes_[node]);
+    return {at_.emission(nodes_[node])};
+  }
+  std::span<const LinearLightBVHNode> nodes_;
+  const BrdfReceiver& at_;
+  uint32_t node_;
+  bool flat_;
 };
 
 }  // namespace
@@ -50,7 +75,7 @@ bool BrdfCut::build(const BrdfReceiver& at, float threshold, bool fillUp) {
       }
       if (!fillUp) return false;
     }
-    clusters_[size_++] = {i, e.importance};
+    clusters_[size_++] = {i, e.flat, e.importance};
     total_ += e.importance;
     if (e.importance > 0) largest_ = std::max(largest_, e.integral);
   }
@@ -70,15 +95,11 @@ std::optional<SampledLight> BrdfCut::sample(const BrdfReceiver& at, double u) co
   // Rounding may leave more than the last one has.
   u = std::min(left / chosen->importance, 1 - DBL_EPSILON);
   double pmf = chosen->importance / total_;
-  uint32_t i = chosen->node;
-  while (!nodes_[i].isLeaf()) {
-    const Children children(nodes_, i, at);
-    if (!(children.sum() > 0)) return std::nullopt;
-    const bool goLeft = chooseFirst(children.leftImportance, children.rightImportance, u);
-    pmf *= (goLeft ? children.leftImportance : children.rightImportance) / children.sum();
-    i = goLeft ? children.left : children.right;
-  }
-  return SampledLight{nodes_[i].light(), static_cast<float>(pmf)};
+  Descent way(nodes_, at, chosen->node, chosen->flat);
+  while (!way.atLeaf() && pmf > 0)
+    pmf *= way.step([&u](double l, double r, uint32_t) { return chooseFirst(l, r, u); });
+  if (!(pmf > 0)) return std::nullopt;
+  return SampledLight{nodes_[way.node()].light(), static_cast<float>(pmf)};
 }
 
 float BrdfCut::pmf(const BrdfReceiver& at, uint32_t leaf) const {
@@ -89,13 +110,9 @@ float BrdfCut::pmf(const BrdfReceiver& at, uint32_t leaf) const {
                          [](uint32_t node, const Cluster& c) { return node < c.node; }) -
         1);
   double pmf = cluster.importance / total_;
-  for (uint32_t i = cluster.node; i != leaf && pmf > 0;) {
-    const Children children(nodes_, i, at);
-    if (!(children.sum() > 0)) return 0;
-    const bool goLeft = leaf < children.right;
-    pmf *= (goLeft ? children.leftImportance : children.rightImportance) / children.sum();
-    i = goLeft ? children.left : children.right;
-  }
+  Descent way(nodes_, at, cluster.node, cluster.flat);
+  while (way.node() != leaf && pmf > 0)
+    pmf *= way.step([leaf](double, double, uint32_t right) { return leaf < right; });
   return static_cast<float>(pmf);
 }
 

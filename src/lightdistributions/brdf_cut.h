@@ -3,9 +3,10 @@
 ///
 /// Liu, Xu and Yan 2019, §4.1. From the root on, a node is split while the point lies in its
 /// bounding sphere or the glossy lobes' integral over that exceeds a threshold; a cluster is drawn
-/// by its importance, then one of two children again and again. Deviation: at most kCapacity
-/// clusters; where that is too few, the threshold is doubled until it does. Cost: one node estimate
-/// for each node visited, about twice the clusters.
+/// by its importance, then one of two children again and again. Deviations: where the BSDF is about
+/// the same for all lights of a node, they are drawn by emission and distance alone; at most
+/// kCapacity clusters; where that is too few, the threshold is doubled until it does. Cost: one
+/// node estimate for each node visited, about twice the clusters.
 #pragma once
 
 #include <span>
@@ -35,6 +36,7 @@ class BrdfCut {
  private:
   struct Cluster {
     uint32_t node;
+    bool flat;
     double importance;
   };
   /// False if there would be too many clusters; `fillUp`: nodes that find no room stay whole.

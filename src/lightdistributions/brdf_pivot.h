@@ -54,7 +54,13 @@ class PivotLobe {
   PivotLobe(const Vec3& axis, float width, const Vec3& horizon, float integral);
 
   /// Mean over a cap of its whole solid angle; what lies below the horizon counts as 0.
-  float mean(const DirectionCap& cap) const;
+  float mean(const DirectionCap& cap) const {
+    float widest = 0;
+    return mean(cap, widest);
+  }
+  /// The same; raises `widest` to the sine of the angular radius of the cap's image: the larger,
+  /// the more the density changes within the cap.
+  float mean(const DirectionCap& cap, float& widest) const;
   /// Value in a direction, 1/sr.
   float density(const Vec3& w) const { return mean(DirectionCap(w, 0)); }
   /// Over the hemisphere.
@@ -74,12 +80,13 @@ class PivotLobe {
   float perSteradian_ = 0;  ///< amplitude / 4π
 };
 
-inline float PivotLobe::mean(const DirectionCap& cap) const {
+inline float PivotLobe::mean(const DirectionCap& cap, float& widest) const {
   const float height = dot(cap.axis, horizon_);
   if (height <= -cap.sine) return 0;
   const Vec3 chord = cap.axis - axis_;
   const float c = boosted(0.5f * dot(chord, chord), cap.versine);
   const float length = std::sqrt(sqr(cap.sine) + c * c);
+  widest = std::max(widest, cap.sine / length);
   // Solid angle of the image over that of the cap: (1 − cos θ') / (1 − cos θ) without differences.
   const float stretch =
       c >= 0 ? (1 + cap.cosine()) / (length * (length + c)) : (length - c) / (length * cap.versine);

@@ -9,6 +9,9 @@ namespace {
 
 /// The least mean of BRDF × cosine, in relation to its mean over the sphere.
 constexpr float kFloor = 1e-3f;
+/// A cap whose image under every pivot is smaller than this (as a sine) counts as flat: densities
+/// within differ by less than a factor (1 + 2 · 0.1)².
+constexpr float kFlat = 0.1f;
 constexpr float kInvSphere = 0.25f * kInvPi;
 
 }  // namespace
@@ -48,12 +51,6 @@ void BrdfReceiver::addLobe(const LobeShape& shape, const Vec3& wo) {
   glossyAlbedo_ += lobe.integral();
 }
 
-/// All of the box is; some ulps for the rounding of the terms.
-bool BrdfReceiver::isBehind(const LinearLightBVHNode& node, const Vec3& d) const {
-  const Vec3 n = glm::abs(side_);
-  return dot(side_, d) + dot(n, node.halfExtent()) < -1e-6f * dot(n, glm::abs(d));
-}
-
 float BrdfReceiver::meanOfCosines(const DirectionCap& cap) const {
   float sum = 0;
   const float height = dot(cap.axis, up_);
@@ -76,8 +73,9 @@ BrdfReceiver::Estimate BrdfReceiver::estimate(const LinearLightBVHNode& node) co
   float mean = albedo_ * kInvSphere;
   if (d2 > std::max(r2, FLT_MIN)) {
     const DirectionCap cap(d * (1 / std::sqrt(d2)), r2 / d2);
-    float glossy = 0;
-    for (size_t i = 0; i < lobeCount_; ++i) glossy += lobes_[i].mean(cap);
+    float glossy = 0, widest = cap.sine;
+    for (size_t i = 0; i < lobeCount_; ++i) glossy += lobes_[i].mean(cap, widest);
+    e.flat = widest < kFlat && std::abs(dot(cap.axis, up_)) > cap.sine;
     e.integral = glossy * cap.solidAngle();
     mean = std::max(kFloor * mean, glossy + meanOfCosines(cap));
   } else {

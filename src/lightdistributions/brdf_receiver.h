@@ -33,14 +33,23 @@ class BrdfReceiver {
     double importance = 0;  ///< ≥ 0, finite; > 0 if any light of the node contributes
     float integral = 0;     ///< of the glossy lobes over the node's sphere; all if inside of it
     bool inside = false;    ///< the point lies within the sphere
+    bool flat = false;      ///< BRDF × cosine is about the same for all the node's lights
   };
   Estimate estimate(const LinearLightBVHNode& node) const;
-  double importance(const LinearLightBVHNode& node) const { return estimate(node).importance; }
+  /// The same without the BSDF, for parts of a flat node: 0 where importance is, or > 0.
+  double emission(const LinearLightBVHNode& node) const {
+    const Vec3 d = node.center() - p_;
+    return oneSided_ && isBehind(node, d) ? 0 : emission_.importance(node);
+  }
 
  private:
   void addShapes(const Bsdf& bsdf, const Vec3& wo);
   void addLobe(const LobeShape& shape, const Vec3& wo);
-  bool isBehind(const LinearLightBVHNode& node, const Vec3& d) const;
+  /// All of the node's box is; some ulps for the rounding of the terms.
+  bool isBehind(const LinearLightBVHNode& node, const Vec3& d) const {
+    const Vec3 n = glm::abs(side_);
+    return dot(side_, d) + dot(n, node.halfExtent()) < -1e-6f * dot(n, glm::abs(d));
+  }
   float meanOfCosines(const DirectionCap& cap) const;
 
   Vec3 p_;
