@@ -106,7 +106,7 @@ int AdaptiveDirect::sampleCount(const Point& point, Purpose purpose, float u) co
   if (!point.brdf) return continued || visible_;
   if (purpose == Purpose::ContinuedByOne) return 2;
   const float wanted = static_cast<float>(maxSamples_) * point.brdf->importance();
-  return std::clamp(static_cast<int>(wanted + u), static_cast<int>(continued), maxSamples_);
+  return std::clamp(static_cast<int>(wanted + u), 1, maxSamples_);
 }
 
 /// p_i, a function of the samples before i alone.

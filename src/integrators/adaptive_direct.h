@@ -11,9 +11,10 @@
 /// before, and has the weight N m_i / (n_T + N m_i) against the n_T draws of the tree; the tree's
 /// samples, which are independent of all p_i, have the mean over i of n_T / (n_T + N m_i). In
 /// expectation the weights add up to 1 for each i, whatever the p_i were. N is rounded at random
-/// beforehand; with N = 0 the tree is alone, and misses nothing.
+/// beforehand.
 ///
-/// Further deviations: points without glossy lobes take one BSDF sample and no cut; lights are
+/// Further deviations: N is at least 1, because the tree alone meets peaks of the BSDF with
+/// unbounded weights; points without glossy lobes take one BSDF sample and no cut; lights are
 /// sampled by solid angle. Cost: a shadow ray or a ray and one light pmf by either tree a sample.
 #pragma once
 

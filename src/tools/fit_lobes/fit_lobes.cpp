@@ -91,30 +91,46 @@ float SampledLobe::error(float width, float pivotAngle) const {
   return static_cast<float>(sum / static_cast<double>(integral_));
 }
 
-/// Compass search from the mirror direction.
-PivotFit fit(float alpha, float viewAngle) {
-  const SampledLobe lobe(alpha, viewAngle);
-  const float mean = PivotTable::meanWidth(alpha, std::cos(viewAngle));
-  float width = std::min(mean, 1.f), angle = viewAngle;
-  float best = lobe.error(width, angle);
+struct Shape {
+  float width, angle, error;
+};
+
+/// The nearest fit by compass search from a start.
+Shape search(const SampledLobe& lobe, float width, float angle) {
+  Shape best{width, angle, lobe.error(width, angle)};
   for (float step = 0.5f; step > 1e-3f; step *= 0.5f) {
     for (bool moved = true; moved;) {
       moved = false;
       const auto tryAt = [&](float w, float a) {
         w = std::clamp(w, 1e-4f, 1.f);
-        a = viewAngle > 0 ? std::min(a, 0.5f * kPi) : 0.f;
+        // At normal incidence the lobe is symmetric.
+        a = angle > 0 ? std::min(a, 0.5f * kPi) : 0.f;
         const float e = lobe.error(w, a);
-        if (e >= best) return;
-        best = e, width = w, angle = a, moved = true;
+        if (e >= best.error) return;
+        best = {w, a, e};
+        moved = true;
       };
-      tryAt(width * (1 + step), angle);
-      tryAt(width / (1 + step), angle);
-      tryAt(width, angle + step * width);
-      tryAt(width, angle - step * width);
+      tryAt(best.width * (1 + step), best.angle);
+      tryAt(best.width / (1 + step), best.angle);
+      tryAt(best.width, best.angle + step * best.width);
+      tryAt(best.width, best.angle - step * best.width);
     }
   }
-  return {albedoOf(alpha, viewAngle), width / mean, viewAngle > 0 ? angle / viewAngle - 1 : 0,
-          best};
+  return best;
+}
+
+PivotFit fit(float alpha, float viewAngle) {
+  const SampledLobe lobe(alpha, viewAngle);
+  const float mean = PivotTable::meanWidth(alpha, std::cos(viewAngle));
+  const float width = std::min(mean, 1.f);
+  Shape best = search(lobe, width, viewAngle);
+  // Very rough lobes lie nearly about the normal, and a start from a uniform density gets nowhere.
+  if (width > 0.3f) {
+    const Shape other = search(lobe, 0.5f, 0.2f * viewAngle);
+    if (other.error < best.error) best = other;
+  }
+  const float lean = viewAngle > 0 ? best.angle / viewAngle - 1 : 0;
+  return {albedoOf(alpha, viewAngle), best.width / mean, lean, best.error};
 }
 
 }  // namespace
