@@ -52,8 +52,8 @@ struct AdaptiveDirect::Point {
   SampleStream& stream;
   RenderState& state;
   const uint32_t firstDimension;
-  const BrdfReceiver receiver;
-  std::optional<BrdfVertex> brdf{};  ///< of a glossy point
+  std::optional<BrdfReceiver> receiver{};  ///< these two at glossy points alone
+  std::optional<BrdfVertex> brdf{};
   bool cut = true;
   int samples = 0;  ///< N
   int hits = 1, misses = 1;
@@ -64,8 +64,13 @@ struct AdaptiveDirect::Point {
         time(rayTime),
         stream(numbers),
         state(s),
-        firstDimension(numbers.dimension()),
-        receiver(context) {}
+        firstDimension(numbers.dimension()) {}
+
+  void look(const BrdfLightDistribution& lights) {
+    if (!BrdfReceiver::isWorthwhile(at)) return;
+    receiver.emplace(at);
+    if (receiver->isGlossy()) brdf.emplace(lights, at, *receiver);
+  }
 
   float count() const { return static_cast<float>(samples); }
   /// N m_i, given the densities by solid angle of either technique.
@@ -135,7 +140,7 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
                                                RenderState& state, Allocation& allocation) const {
   Point point(at, time, stream, state);
   point.cut = purpose != Purpose::ContinuedByOne;
-  if (point.receiver.isGlossy()) point.brdf.emplace(lights_, at, point.receiver);
+  point.look(lights_);
   point.samples = sampleCount(point, purpose, stream.next1D());
   allocation = {point.samples, point.cut};
 

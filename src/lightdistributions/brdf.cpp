@@ -17,11 +17,13 @@ BrdfLightDistribution::BrdfLightDistribution(const BrdfParameters& parameters,
 
 std::optional<SampledLight> BrdfLightDistribution::sample(const LightSampleContext& ctx,
                                                           float u) const {
+  if (!BrdfReceiver::isWorthwhile(ctx)) return plain_->sample(ctx, u);
   const BrdfReceiver receiver(ctx);
   return receiver.isGlossy() ? BrdfVertex(*this, ctx, receiver).sample(u) : plain_->sample(ctx, u);
 }
 
 float BrdfLightDistribution::pmf(const LightSampleContext& ctx, LightId light) const {
+  if (!BrdfReceiver::isWorthwhile(ctx)) return plain_->pmf(ctx, light);
   const BrdfReceiver receiver(ctx);
   return receiver.isGlossy() ? BrdfVertex(*this, ctx, receiver).pmf(light)
                              : plain_->pmf(ctx, light);

@@ -23,6 +23,10 @@ class BrdfReceiver {
  public:
   explicit BrdfReceiver(const LightSampleContext& ctx);
 
+  /// False where none need be made to know that isGlossy() is false.
+  static bool isWorthwhile(const LightSampleContext& ctx) {
+    return ctx.bsdf && !ctx.bsdf->isDiffuse();
+  }
   /// False if no lobe is narrower than a cosine's: the plain tree does as well.
   bool isGlossy() const { return lobeCount_ > 0; }
   /// About what all lobes scatter of light from everywhere, and the glossy ones alone (luminance).
