@@ -145,11 +145,11 @@ def cornell(lights, rng):
            PLASTIC % (.3, .25, .15, .6, .6, .6, .06), knot((-.38, .25, .55), .5),
            PLASTIC % (.1, .2, .35, .6, .6, .6, .03), sphere(.45, -.2, .4, .4),
            PLASTIC % (.25, .25, .25, .5, .5, .5, .12), cuboid((.1, .35, 0), (.8, .9, .9)), BLACK]
+    # Any number of lamps has the same area in all.
+    radius = .004 * (1494 / lights) ** .5
     for _ in range(lights):
-        x = rng.choice((-.985, .985))
-        strength = 1494 / lights
-        out.append(glow_worm(x, rng.uniform(-.9, .9), rng.uniform(.5, 1.9), .004,
-                             scaled((1, .85, .65), 60 * strength)))
+        out.append(glow_worm(rng.choice((-.985, .985)), rng.uniform(-.9, .9), rng.uniform(.5, 1.9), radius,
+                             (60, 51, 39)))
     return out
 
 
