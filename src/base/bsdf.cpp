@@ -77,6 +77,20 @@ Vec3 tangentAlong(const Vec3& d, const Vec3& z) {
 
 }  // namespace
 
+size_t Lobe::shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const {
+  if (flags & kSpecular) return 0;
+  size_t count = 0;
+  const bool both = (flags & kReflection) && (flags & kTransmission);
+  LobeShape shape;
+  shape.albedo = both ? 0.5f * albedo(wo) : albedo(wo);
+  for (const LobeFlags side : {kReflection, kTransmission}) {
+    if (!(flags & side)) continue;
+    shape.transmitted = side == kTransmission;
+    out[count++] = shape;
+  }
+  return count;
+}
+
 void Bsdf::reset(const SurfaceInteraction& at) {
   ng_ = at.n;
   // A zero or undefined shading normal would make every direction vanish.

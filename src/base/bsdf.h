@@ -36,11 +36,28 @@ struct LobeSample {
   float eta = 1;  ///< relative index of refraction: ηt/ηi along the path if transmitted
 };
 
+/// Where a lobe, or a part of one, sends light from wo, roughly: for those who must judge lights by
+/// the BSDF before any direction is drawn. Sizes are luminances.
+struct LobeShape {
+  enum class Kind : uint8_t {
+    Cosine,  ///< constant f over a hemisphere
+    Facets,  ///< Trowbridge–Reitz microfacets, mirroring or refracting
+  };
+  Kind kind = Kind::Cosine;
+  bool transmitted = false;  ///< to the other side than wo's
+  float albedo = 0;          ///< Facets: factor on what facets that lose no light would scatter
+  float alpha = 1;           ///< Facets: roughness, the mean of both directions
+  float eta = 1;             ///< transmitted Facets: as LobeSample::eta
+};
+
 /// One term of a BSDF, in the local frame of the shading normal (z). Directions are unit and point
 /// away from the surface. Radiance transport: refraction scales by 1/η². Trivially destructible, at
 /// most Bsdf::kLobeSize bytes.
 class Lobe {
  public:
+  /// The most shapes that one lobe reports.
+  static constexpr size_t kMaxShapes = 2;
+
   explicit Lobe(uint8_t flags) : flags(flags) {}
   virtual Rgb f(const Vec3& wo, const Vec3& wi) const = 0;
   /// Density by solid angle with which sample() draws wi.
@@ -50,6 +67,9 @@ class Lobe {
   /// About how much of the light from wo the lobe scatters (luminance of its albedo, in [0, 1]):
   /// the probability of its choice. > 0 wherever the lobe scatters.
   virtual float albedo(const Vec3& wo) const = 0;
+  /// Writes the lobe's shapes and returns their number. A lobe that doesn't say more is taken for
+  /// a cosine on each side that it scatters to; a specular one has none.
+  virtual size_t shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const;
 
   uint8_t flags;
   Rgb scale{1};  ///< factor on f, set by materials that mix; in f(), sample() and albedo() already

@@ -55,8 +55,6 @@ class DirectLighting {
   /// The weight of a light drawn with drawLight() where the point's own sampling has density
   /// `scatterPdf` for its direction: the other half of foundAtHit() and foundOutside().
   static float lightWeight(const DrawnLight& drawn, float scatterPdf);
-  /// From the point to a light's sample, short of the light's own surface. The direction is unit.
-  static Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light);
 
   /// Radiance that a ray which left `from` with a non-specular BSDF sample of density `bsdfPdf`
   /// finds at `hit` (an emitter), times the weight of that technique.
@@ -78,7 +76,6 @@ class DirectLighting {
                   const Vec2& u, RayCounts& rays) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
                    float lightPdf) const;
-  bool occluded(const LightSampleContext& at, float time, const LightSample& light) const;
 
   const Scene& scene_;
   const LightStrategy strategy_;

@@ -5,6 +5,7 @@
 // bounds the time for any depth.
 #include <array>
 
+#include "integrators/adaptive_direct.h"
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 
@@ -24,16 +25,21 @@ struct DirectLightingParameters {
   int maxDepth = 5;
   std::vector<int> pixelBounds;
   std::string lightSampler;
+  AdaptiveSettings adaptive;
 
   void declare(Declaration& d) {
-    d.add("strategy", strategy, "Whether all lights are sampled at a point, or one.")
-        .oneOf({"all", "one"});
+    d.add("strategy", strategy,
+          "Whether all lights are sampled at a point, or one, or as many as the lights and the "
+          "BSDF there are worth.")
+        .oneOf({"all", "one", "adaptive"});
     d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
     d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
     d.add("lightsampler", lightSampler,
-          "Strategy \"one\": which light to sample at a point; see kind lightsampler.")
+          "Strategy \"one\": which light to sample at a point; see kind lightsampler. Strategy "
+          "\"adaptive\" takes \"brdf\" alone.")
         .alias("lightsamplestrategy")
         .defaultIs("bvh");
+    adaptive.declare(d);
   }
 };
 
@@ -48,11 +54,14 @@ using Branches = std::array<Branch, kMaxBranches>;
 class DirectLightingEstimator final : public RadianceEstimator {
  public:
   DirectLightingEstimator(const Scene& scene, int maxDepth, LightStrategy strategy,
-                          const LightDistribution* distribution)
+                          const LightDistribution* distribution, const AdaptiveDirect* adaptive)
       : geometry_(*scene.geometry),
         lighting_(scene, strategy, distribution),
+        adaptive_(adaptive),
         maxDepth_(maxDepth),
-        dimensionsPerVertex_(lighting_.lightDimensions() + lighting_.bsdfDimensions() + 2) {}
+        dimensionsPerVertex_(
+            2 + (adaptive ? AdaptiveDirect::kDimensions
+                          : lighting_.lightDimensions() + lighting_.bsdfDimensions())) {}
 
   Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
 
@@ -70,6 +79,7 @@ class DirectLightingEstimator final : public RadianceEstimator {
 
   const Geometry& geometry_;
   const DirectLighting lighting_;
+  const AdaptiveDirect* const adaptive_;  ///< samples in place of lighting_ if there is one
   const int maxDepth_;
   const uint32_t dimensionsPerVertex_;
 };
@@ -111,6 +121,11 @@ Rgb DirectLightingEstimator::shade(const Node& node, const SurfaceInteraction& a
     recordSurface(*state.aov, at, state.bsdf, stream);
   if (!lighting_.hasLights() || state.bsdf.isSpecular()) return Rgb();
   const LightSampleContext context(at, state.bsdf);
+  if (adaptive_) {
+    const auto parts = adaptive_->radiance(context, node.ray.time, stream, state);
+    if (state.aov) state.aov->lightSampled(parts.lights), state.aov->bsdfSampled(parts.bsdf);
+    return parts.lights + parts.bsdf;
+  }
   if (state.aov) lighting_.recordDraws(context, stream, *state.aov);
   const Rgb light = lighting_.lightSamples(context, node.ray.time, stream, state.rays);
   stream.setDimension(node.firstDimension + lighting_.lightDimensions());
@@ -201,8 +216,11 @@ class DirectLightingIntegrator final : public Integrator {
   uint64_t render(RenderContext& context) const override {
     const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
     const auto strategy = parameters_.strategy == "all" ? LightStrategy::All : LightStrategy::One;
+    std::optional<AdaptiveDirect> adaptive;
+    if (parameters_.strategy == "adaptive")
+      adaptive.emplace(context.scene, parameters_.adaptive, *distribution_);
     const DirectLightingEstimator estimator(context.scene, parameters_.maxDepth, strategy,
-                                            distribution_.get());
+                                            distribution_.get(), adaptive ? &*adaptive : nullptr);
     return renderPasses(context, pixels, estimator);
   }
 
@@ -215,7 +233,9 @@ class DirectLightingIntegrator final : public Integrator {
 std::unique_ptr<Integrator> create(const DirectLightingParameters& p,
                                    const IntegratorContext& context) {
   // Sampling all lights needs no tree.
-  auto distribution = p.strategy == "one" ? context.lightDistribution(p.lightSampler) : nullptr;
+  std::unique_ptr<LightDistribution> distribution;
+  if (p.strategy == "one") distribution = context.lightDistribution(p.lightSampler);
+  if (p.strategy == "adaptive") distribution = makeAdaptiveLights(context, p.lightSampler);
   return std::make_unique<DirectLightingIntegrator>(p, context.location, std::move(distribution));
 }
 

@@ -17,6 +17,8 @@ namespace {
 /// one left out so that pairs keep even dimensions.
 constexpr uint32_t kDimensionsPerVertex = 8;
 constexpr uint32_t kRouletteOffset = 6;
+/// Beyond those of any vertex: where the numbers of adaptive direct lighting begin.
+constexpr uint32_t kAdaptiveDimension = kFirstPathDimension + (uint32_t{1} << 24);
 constexpr int kFirstRouletteBounce = 4;
 /// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
 constexpr int kMaxInterfaces = 1000;
@@ -29,13 +31,19 @@ class PathEstimator final : public RadianceEstimator {
         lighting_(scene, LightStrategy::One, distribution),
         maxDepth_(settings.maxDepth),
         rrThreshold_(settings.rrThreshold),
-        scattersBelow_(scattersBelowSurfaces(scene)) {}
+        adaptiveVertices_(settings.adaptiveVertices),
+        scattersBelow_(scattersBelowSurfaces(scene)) {
+    if (settings.adaptive) adaptive_.emplace(scene, settings.adaptiveSettings, *distribution);
+  }
 
   Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
 
  private:
   struct Path;
   static void addFound(Path& path, const RenderState& state, const Rgb& light);
+  Rgb emission(const Path& path, const SurfaceInteraction& at) const;
+  Rgb outside(const Path& path) const;
+  void addLightSamples(Path& path, SampleStream& stream, RenderState& state) const;
   bool scatter(Path& path, SurfaceInteraction& at, const Material& material, SampleStream& stream,
                RenderState& state) const;
   bool shade(Path& path, const SurfaceInteraction& at, const Material* material,
@@ -46,8 +54,10 @@ class PathEstimator final : public RadianceEstimator {
 
   const Geometry& geometry_;
   const DirectLighting lighting_;
+  std::optional<AdaptiveDirect> adaptive_;  ///< samples and weighs in place of lighting_
   const int maxDepth_;
   const float rrThreshold_;
+  const int adaptiveVertices_;
   const bool scattersBelow_;
 };
 
@@ -60,6 +70,7 @@ struct PathEstimator::Path {
   int bounces = 0, interfaces = 0;
   uint32_t vertices = 0;  ///< sets of dimensions taken; more than bounces below surfaces
   uint32_t firstDimension() const { return kFirstPathDimension + vertices * kDimensionsPerVertex; }
+  int litVertices = 0;  ///< at which light was sampled
   /// Set where light sampling at the last vertex could have found what the ray finds: `from` and
   /// `bsdfPdf` then say with which densities.
   bool weighed = false;
@@ -68,6 +79,7 @@ struct PathEstimator::Path {
   bool blind = false;
   LightSampleContext from{};
   float bsdfPdf = 0;
+  AdaptiveDirect::Allocation allocation{};
 };
 
 Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
@@ -77,10 +89,7 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     ++state.rays.closest;
     const auto hit = geometry_.intersect(path.ray);
     if (!hit) {
-      if (!path.blind)
-        addFound(path, state,
-                 path.weighed ? lighting_.foundOutside(path.from, path.bsdfPdf, path.ray.d)
-                              : lighting_.outside(path.ray.d));
+      if (!path.blind) addFound(path, state, outside(path));
       break;
     }
     const Primitive& primitive = geometry_.primitive(*hit);
@@ -92,10 +101,7 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
                                               footprint  ? SurfaceDetail::Full
                                               : material ? material->detail()
                                                          : SurfaceDetail::Basic);
-    if (primitive.light && !path.blind)
-      addFound(path, state,
-               path.weighed ? lighting_.foundAtHit(path.from, path.bsdfPdf, at)
-                            : primitive.light->emitted(at, at.wo));
+    if (primitive.light && !path.blind) addFound(path, state, emission(path, at));
     if (last) break;
     if (!material) {
       if (++path.interfaces > kMaxInterfaces) break;
@@ -116,6 +122,39 @@ void PathEstimator::addFound(Path& path, const RenderState& state, const Rgb& li
   const Rgb radiance = path.throughput * light;
   path.radiance += radiance;
   if (state.aov && path.weighed) state.aov->bsdfSampled(radiance);
+}
+
+/// Emission at the end of the path's ray, weighed where light sampling could have found it.
+Rgb PathEstimator::emission(const Path& path, const SurfaceInteraction& at) const {
+  if (!path.weighed) return at.primitive->light->emitted(at, at.wo);
+  return adaptive_ ? adaptive_->foundAtHit(path.from, path.allocation, path.bsdfPdf, at)
+                   : lighting_.foundAtHit(path.from, path.bsdfPdf, at);
+}
+
+Rgb PathEstimator::outside(const Path& path) const {
+  const Vec3& d = path.ray.d;
+  if (!path.weighed) return lighting_.outside(d);
+  return adaptive_ ? adaptive_->foundOutside(path.from, path.allocation, path.bsdfPdf, d)
+                   : lighting_.foundOutside(path.from, path.bsdfPdf, d);
+}
+
+/// Adds what light sampling at path.from finds. Takes its numbers from stream.dimension() on, or
+/// from those that adaptive direct lighting has for itself.
+void PathEstimator::addLightSamples(Path& path, SampleStream& stream, RenderState& state) const {
+  Rgb light, scattered;
+  if (adaptive_) {
+    stream.setDimension(kAdaptiveDimension + path.vertices * AdaptiveDirect::kDimensions);
+    const auto effort = path.litVertices++ < adaptiveVertices_ ? AdaptiveDirect::Effort::Allocated
+                                                               : AdaptiveDirect::Effort::One;
+    const auto parts =
+        adaptive_->lightSamples(path.from, path.ray.time, effort, stream, state, path.allocation);
+    light = path.throughput * parts.lights, scattered = path.throughput * parts.bsdf;
+  } else {
+    if (state.aov) lighting_.recordDraws(path.from, stream, *state.aov);
+    light = path.throughput * lighting_.lightSamples(path.from, path.ray.time, stream, state.rays);
+  }
+  path.radiance += light + scattered;
+  if (state.aov) state.aov->lightSampled(light), state.aov->bsdfSampled(scattered);
 }
 
 /// Russian roulette with the probabilities of pbrt-v3, but after the emission at the new vertex has
@@ -153,11 +192,7 @@ bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Materi
     path.from = LightSampleContext(at, bsdf);
     // The noise of a vertex goes into the image times the throughput: that many lights less pay.
     path.from.worth = std::min(path.throughput.maxComponent(), 1.f);
-    if (state.aov) lighting_.recordDraws(path.from, stream, *state.aov);
-    const Rgb light =
-        path.throughput * lighting_.lightSamples(path.from, path.ray.time, stream, state.rays);
-    path.radiance += light;
-    if (state.aov) state.aov->lightSampled(light);
+    addLightSamples(path, stream, state);
   }
   // Where rays find no light, the last one need not be traced.
   if (path.bounces + 1 >= maxDepth_ && !below && !lighting_.hasVisibleLights()) return false;

@@ -101,6 +101,7 @@ class PassRenderer {
   int64_t wholeTiles_ = 0;  ///< of the pass, that were not cut short
   double lastProgress_ = 0;
   RayCounts rays_;
+  DirectCounts direct_;
   BadSamples bad_;
 };
 
@@ -246,6 +247,7 @@ void PassRenderer::tileDone(uint64_t paths, bool whole, const RenderState& state
   paths_ += paths;
   wholeTiles_ += whole ? 1 : 0;
   rays_ += state.rays;
+  direct_ += state.direct;
   if (!bad.empty()) bad_.merge(bad);
   if (!options_.onProgress) return;
   const double now = seconds();
@@ -265,6 +267,7 @@ void PassRenderer::report(double seconds) {
   s.set("render", "rays", static_cast<double>(rays_.closest));
   s.set("render", "shadow rays", static_cast<double>(rays_.shadow));
   s.set("render", "rays per second", seconds > 0 ? total / seconds : 0);
+  direct_.report(s);
   bad_.report(s);
 }
 

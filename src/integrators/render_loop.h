@@ -20,6 +20,19 @@ struct RayCounts {
   }
 };
 
+/// How direct lighting shared its samples out, over the points where it did (adaptive_direct.h).
+struct DirectCounts {
+  uint64_t points = 0, glossyPoints = 0;
+  uint64_t treeSamples = 0;   ///< of the light tree's cut
+  uint64_t cutClusters = 0;   ///< of the BRDF-oriented cut, at glossy points
+  uint64_t lightSamples = 0;  ///< BRDF-oriented, at glossy points
+  uint64_t bsdfSamples = 0;   ///< at glossy points
+  uint64_t bsdfHits = 0;      ///< of these, how many found light
+
+  DirectCounts& operator+=(const DirectCounts& o);
+  void report(Statistics& statistics) const;
+};
+
 /// What an estimator keeps from sample to sample of a tile; estimators derive from it.
 class EstimatorMemory {
  public:
@@ -32,6 +45,7 @@ struct RenderState {
   RayCounts rays;
   AovRecord* aov = nullptr;                 ///< of the sample being made; null: nobody asked
   std::unique_ptr<EstimatorMemory> memory;  ///< of RadianceEstimator::makeMemory()
+  DirectCounts direct;
 };
 
 /// Estimates the radiance that arrives along a camera ray. Thread-safe.

@@ -8,6 +8,7 @@
 
 #include "integrators/aov_surface.h"
 #include "integrators/direction_mixture.h"
+#include "integrators/light_connection.h"
 #include "integrators/subsurface.h"
 #include "integrators/transmittance.h"
 
@@ -300,7 +301,7 @@ Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
   const Vec3& wi = drawn->light.wi;
   const Rgb scattered = point.scattered(wi);
   if (scattered.isBlack()) return Rgb();
-  Ray ray = lighting_.shadowRay(path.from, path.ray.time, drawn->light);
+  Ray ray = unitShadowRay(path.from, path.ray.time, drawn->light);
   const Rgb share =
       transmittance(scene_, ray, mediumTowards(path, wi), path.numbers, path.state.rays);
   if (share.isBlack()) return Rgb();

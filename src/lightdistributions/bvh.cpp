@@ -4,31 +4,26 @@
 /// beside the tree and are weighed against it by irradiance; the tree is the wide form by default.
 /// Cost per sample: the importances of a node's children a level of the tree, and one irradiance
 /// estimate an infinite light.
-#include "lightdistributions/light_set.h"
+#include "lightdistributions/bvh.h"
 
 namespace lampyris {
+
+void BvhParameters::declare(Declaration& d) {
+  d.add("tree", tree, "Form of the tree: eight children a node, or two, which never splits.")
+      .oneOf({"wide", "binary"});
+  d.add("factors", factors,
+        "How the importance of a cluster takes in angles: means over it, bounds, or bounds "
+        "without "
+        "the receiver's cosine. The latter two need \"tree\" \"binary\".")
+      .oneOf({"mean", "bound", "thesis"});
+  d.add("splitthreshold", splitThreshold,
+        "How near for its size a cluster of lights must be to give more than one light. 1: "
+        "never; 0: always.")
+      .range(0, 1);
+  d.add("maxcut", maxCut, "The most lights that splitting draws for a point.").range(1, 65536);
+}
+
 namespace {
-
-struct BvhParameters {
-  std::string tree = "wide", factors = "mean";
-  float splitThreshold = 1;
-  int maxCut = 8;
-
-  void declare(Declaration& d) {
-    d.add("tree", tree, "Form of the tree: eight children a node, or two, which never splits.")
-        .oneOf({"wide", "binary"});
-    d.add("factors", factors,
-          "How the importance of a cluster takes in angles: means over it, bounds, or bounds "
-          "without "
-          "the receiver's cosine. The latter two need \"tree\" \"binary\".")
-        .oneOf({"mean", "bound", "thesis"});
-    d.add("splitthreshold", splitThreshold,
-          "How near for its size a cluster of lights must be to give more than one light. 1: "
-          "never; 0: always.")
-        .range(0, 1);
-    d.add("maxcut", maxCut, "The most lights that splitting draws for a point.").range(1, 65536);
-  }
-};
 
 /// The tree, and beside it the lights without a position.
 template <class Tree>
@@ -94,9 +89,10 @@ class SplittingLightDistribution final : public BvhLightDistribution<WideLightBV
   const LightSplitting splitting_;
 };
 
-std::unique_ptr<LightDistribution> create(const BvhParameters& p,
-                                          const LightDistributionContext& context) {
-  LightBVHAccel binary = makeLightTree(context);
+}  // namespace
+
+std::unique_ptr<LightDistribution> makeBvhLights(const BvhParameters& p, LightBVHAccel binary,
+                                                 const LightDistributionContext& context) {
   if (p.tree == "binary") {
     if (p.splitThreshold < 1)
       throw SceneError(context.location, "\"splitthreshold\" below 1 needs \"tree\" \"wide\"");
@@ -113,6 +109,13 @@ std::unique_ptr<LightDistribution> create(const BvhParameters& p,
   if (splitting.never())
     return std::make_unique<BvhLightDistribution<WideLightBVH>>(std::move(tree), context.lights);
   return std::make_unique<SplittingLightDistribution>(std::move(tree), context.lights, splitting);
+}
+
+namespace {
+
+std::unique_ptr<LightDistribution> create(const BvhParameters& p,
+                                          const LightDistributionContext& context) {
+  return makeBvhLights(p, makeLightTree(context), context);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_LIGHT_DISTRIBUTIONS(PLUGIN) \
+  PLUGIN(brdfLightDistribution)              \
   PLUGIN(bvhLightDistribution)               \
   PLUGIN(powerLightDistribution)             \
   PLUGIN(spatialLightDistribution)           \

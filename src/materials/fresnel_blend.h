@@ -56,6 +56,12 @@ class FresnelBlend final : public Lobe {
   float albedo(const Vec3& wo) const override {
     return scale.luminance() * std::min(1.f, baseAlbedo(wo) + coatAlbedo(wo));
   }
+  size_t shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const override {
+    const float size = scale.luminance();
+    out[0] = {LobeShape::Kind::Cosine, false, size * baseAlbedo(wo)};
+    out[1] = {LobeShape::Kind::Facets, false, size * coatAlbedo(wo), facets_.meanAlpha()};
+    return 2;
+  }
 
  private:
   static float pow5(float x) { return sqr(sqr(x)) * x; }

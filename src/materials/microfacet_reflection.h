@@ -44,6 +44,10 @@ class MicrofacetReflection final : public Lobe {
   float albedo(const Vec3& wo) const override {
     return std::max((scale * fresnel_(wo.z)).luminance(), 0.01f * scale.luminance());
   }
+  size_t shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const override {
+    out[0] = {LobeShape::Kind::Facets, false, albedo(wo), facets_.meanAlpha()};
+    return 1;
+  }
 
  private:
   Rgb value(const Vec3& wo, const Vec3& wi, const Vec3& m, float cosine) const {

@@ -65,15 +65,30 @@ class RoughDielectric final : public Lobe {
                       static_cast<uint8_t>(kGlossy | (e.reflected ? kReflection : kTransmission)),
                       e.reflected ? 1.f : e.eta};
   }
-  /// Shares at the macroscopic angle; facets see others, so they are kept off zero.
   float albedo(const Vec3& wo) const override {
-    const float fresnel = fresnelDielectric(wo.z, eta_);
-    return (scale * (reflectance_ * std::max(fresnel, 0.01f) +
-                     transmittance_ * std::max(1 - fresnel, 0.01f)))
-        .luminance();
+    const auto [reflected, transmitted] = albedos(wo);
+    return reflected + transmitted;
+  }
+  size_t shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const override {
+    const auto [reflected, transmitted] = albedos(wo);
+    const float alpha = facets_.meanAlpha(), eta = wo.z > 0 ? eta_ : 1 / eta_;
+    size_t count = 0;
+    if (reflected > 0) out[count++] = {LobeShape::Kind::Facets, false, reflected, alpha};
+    if (transmitted > 0) out[count++] = {LobeShape::Kind::Facets, true, transmitted, alpha, eta};
+    return count;
   }
 
  private:
+  struct Albedos {
+    float reflected, transmitted;
+  };
+  /// Shares at the macroscopic angle; facets see others, so they are kept off zero.
+  Albedos albedos(const Vec3& wo) const {
+    const float fresnel = fresnelDielectric(wo.z, eta_);
+    return {(scale * reflectance_ * std::max(fresnel, 0.01f)).luminance(),
+            (scale * transmittance_ * std::max(1 - fresnel, 0.01f)).luminance()};
+  }
+
   /// One facet at work, turned so that wo is above the surface.
   struct Event {
     Vec3 o{0}, i{0}, m{0};

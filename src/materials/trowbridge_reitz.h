@@ -25,6 +25,8 @@ class TrowbridgeReitz {
       : ax_(std::clamp(alphaX, kMinAlpha, kMaxAlpha)),
         ay_(std::clamp(alphaY, kMinAlpha, kMaxAlpha)) {}
 
+  /// Geometric mean of both directions'.
+  float meanAlpha() const { return std::sqrt(ax_ * ay_); }
   /// Area of facets with normal m, by solid angle of m and surface area: ∫ D cos θ dω = 1.
   float density(const Vec3& m) const {
     const float a = ax_ * ay_;

@@ -2,12 +2,17 @@
 #include "light_scenes.h"
 
 #include <gtest/gtest.h>
+#include <map>
 
 #include "core/sampling.h"
 #include "lightdistributions/registry.h"
 #include "lights/area_registry.h"
 #include "lights/registry.h"
 #include "shapes/triangle_mesh.h"
+#include "materials/fresnel_blend.h"
+#include "materials/lambert.h"
+#include "materials/microfacet_reflection.h"
+#include "materials/rough_dielectric.h"
 #include "support/statistics.h"
 
 namespace lampyris::test {
@@ -210,8 +215,34 @@ std::unique_ptr<LightScene> manyLights(size_t count) {
   return s;
 }
 
+namespace {
+
+/// Lobes of all kinds in the frame of the context with the number k, made once.
+
+const Bsdf* glossySurface(int k, const LightSampleContext& c) {
+  static std::map<int, Bsdf> all;
+  const auto [found, isNew] = all.try_emplace(k);
+  Bsdf& bsdf = found->second;
+  if (!isNew) return &bsdf;
+  SurfaceInteraction at;
+  at.n = c.n;
+  at.shading.n = c.ns;
+  bsdf.reset(at);
+  const TrowbridgeReitz facets(0.02f * static_cast<float>(1 + k), 0.1f);
+  if (k % 3 == 0) bsdf.add<RoughDielectric<>>(Rgb(1), Rgb(0.5f), facets, 1.5f);
+  if (k % 3 == 1) bsdf.add<FresnelBlend>(Rgb(0.5f), Rgb(0.1f), facets);
+  if (k % 3 == 2) {
+    bsdf.add<LambertTransmission>(Rgb(0.3f));
+    const ConductorFresnel metal{Rgb(0.2f), Rgb(3)};
+    bsdf.add<MicrofacetReflection<ConductorFresnel>>(Rgb(1), facets, metal);
+  }
+  return &bsdf;
+}
+
+}  // namespace
+
 std::vector<LightSampleContext> contextsFor(const LightScene& scene, int count) {
-  static const Bsdf surface{};  // only whether there is one matters here
+  static const Bsdf surface{};  // most distributions ask only whether there is one
   std::vector<LightSampleContext> all;
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<uint64_t>(k);
@@ -228,7 +259,7 @@ std::vector<LightSampleContext> contextsFor(const LightScene& scene, int count) 
     c.wo = randomDirection(i, 64);
     c.reflects = k % 4 != 1;
     c.transmits = k % 4 == 1 || k % 4 == 3;
-    c.bsdf = k % 8 == 7 ? nullptr : &surface;
+    c.bsdf = k % 8 == 7 ? nullptr : k % 5 < 2 ? &surface : glossySurface(k, c);
     all.push_back(c);
   }
   LightSampleContext nothing;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrators/light_connection.h"
+
+namespace lampyris {
+
+namespace {
+
+/// Where a shadow ray ends, in relation to the distance: the light's own surface must not shade it
+/// (pbrt-v3's value, which decides what a blocker very near to a light does).
+constexpr float kShadowEnd = 1 - 1e-4f;
+
+}  // namespace
+
+Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light) {
+  Ray ray;
+  ray.time = time;
+  ray.o = offsetRayOrigin(at.p, at.pError, at.n, light.wi);
+  if (std::isinf(light.distance)) {
+    ray.d = light.wi;
+  } else {
+    const bool surface = light.n != Vec3(0);
+    const Vec3 end = surface ? offsetRayOrigin(light.p, light.pError, light.n, -light.wi) : light.p;
+    ray.d = end - ray.o;
+    ray.tMax = kShadowEnd;
+  }
+  return ray;
+}
+
+Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& light) {
+  Ray ray = shadowRay(at, time, light);
+  const float distance = length(ray.d);
+  if (distance > 0) ray.d /= distance;
+  ray.tMax *= distance;
+  return ray;
+}
+
+std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,
+                                              float time, LightId light, const Vec2& u,
+                                              RayCounts& rays) {
+  const LightTable::Entry entry = scene.lightTable[light];
+  const auto s = entry.light->sample(entry.element, at.p, u);
+  if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return std::nullopt;
+  const Rgb f = at.bsdf->f(at.wo, s->wi);
+  if (f.isBlack()) return std::nullopt;
+  ++rays.shadow;
+  if (scene.geometry->occluded(shadowRay(at, time, *s))) return std::nullopt;
+  return LightConnection{s->radiance * f * at.bsdf->absCosTheta(s->wi), s->wi, s->pdf,
+                         entry.light->isDelta()};
+}
+
+}  // namespace lampyris
