@@ -3,9 +3,8 @@
 Small emitters that glossy surfaces show as highlights, of which neither light nor BSDF sampling finds the
 right one."""
 import math
-import os
-import random
 
+from .files import write_scene
 from .geometry import (add, area_light, cross, cuboid, glow_worm, quad, scaled, sphere, sub, torus_knot,
                        triangle_mesh, unit)
 
@@ -177,9 +176,4 @@ SCENES = {"spiral": ("A metal figure within a luminous spiral", 6912, spiral),
 
 
 def write(folder, name, lights=None):
-    title, count, make = SCENES[name]
-    os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, name + ".pbrt"), "w") as f:
-        f.write("# %s. Made by generate.py.\n\n" % title)
-        f.writelines(make(lights or count, random.Random(name)))
-        f.write("WorldEnd\n")
+    write_scene(SCENES, folder, name, lights)

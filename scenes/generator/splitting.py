@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes for the splitting of light trees: large groups of emitters lie close to what they light, so that
 one light drawn from a group says little about the rest of it (Conty and Kulla 2018, section 5.4)."""
-import os
-import random
 
+from .files import write_scene
 from .geometry import add, cuboid, light_panel, quad, scaled, sphere
 
 HEAD = '''LookAt %s
@@ -64,9 +63,4 @@ SCENES = {"cove": ("8 strips of emitters before a wall", 5600, cove),
 
 
 def write(folder, name, lights=None):
-    title, count, make = SCENES[name]
-    os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, name + ".pbrt"), "w") as f:
-        f.write("# %s. Made by generate.py.\n\n" % title)
-        f.writelines(make(lights or count, random.Random(name)))
-        f.write("WorldEnd\n")
+    write_scene(SCENES, folder, name, lights)

@@ -4,9 +4,8 @@ there are is the thesis's; positions come from a generator of their own, materia
 
 The room is 10 x 16 x 7 units, seen along y from a man's height near one end."""
 import math
-import os
-import random
 
+from .files import write_scene
 from .geometry import area_light, cuboid, faceted_sphere, light_panel, quad, sphere
 
 LOW, HIGH = (-5, -11, 0), (5, 5, 7)
@@ -124,11 +123,4 @@ SCENES = {  # name: (what it is, lights, the generator of its lights)
 
 
 def write(folder, name, lights=None):
-    title, count, make = SCENES[name]
-    os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, name + ".pbrt"), "w") as f:
-        f.write("# %s. Made by generate.py.\n\n" % title)
-        f.write(HEAD % name)
-        f.write(furnished_room())
-        f.writelines(make(lights or count, random.Random(name)))
-        f.write("WorldEnd\n")
+    write_scene(SCENES, folder, name, lights, HEAD % name + furnished_room())

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lights/emission.h"
+#include "lights/point_sample.h"
 
 namespace lampyris {
 
@@ -28,17 +29,9 @@ PatternLight::PatternLight(const PatternLightParameters& parameters, const Light
 }
 
 std::optional<LightSample> PatternLight::sample(uint32_t, const Vec3& from, const Vec2&) const {
-  const Vec3 d = p_ - from;
-  const float squared = lengthSquared(d);
-  if (!(squared > 0)) return std::nullopt;
-  LightSample s;
-  s.distance = std::sqrt(squared);
-  s.wi = d / s.distance;
-  s.radiance = intensity_ * pattern(normalize(worldToLight_.vector(-s.wi))) / squared;
-  if (s.radiance.isBlack() || !s.radiance.isFinite()) return std::nullopt;
-  s.pdf = 1;
-  s.p = p_;
-  return s;
+  return samplePoint(p_, from, [this](const Vec3& w) {
+    return intensity_ * pattern(normalize(worldToLight_.vector(w)));
+  });
 }
 
 double PatternLight::stretch(const Vec3& w) const {

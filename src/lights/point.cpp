@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
 #include "lights/emission.h"
+#include "lights/point_sample.h"
 
 namespace lampyris {
 namespace {
@@ -22,17 +23,7 @@ class PointLight final : public Light {
   bool isDelta() const override { return true; }
 
   std::optional<LightSample> sample(uint32_t, const Vec3& from, const Vec2&) const override {
-    const Vec3 d = p_ - from;
-    const float squared = lengthSquared(d);
-    const Rgb irradiance = intensity_ / squared;
-    if (!(squared > 0) || !irradiance.isFinite() || irradiance.isBlack()) return std::nullopt;
-    LightSample s;
-    s.radiance = irradiance;
-    s.distance = std::sqrt(squared);
-    s.wi = d / s.distance;
-    s.pdf = 1;
-    s.p = p_;
-    return s;
+    return samplePoint(p_, from, [this](const Vec3&) { return intensity_; });
   }
 
   Rgb power(uint32_t) const override { return 4 * kPi * intensity_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
 #include "lights/emission.h"
+#include "lights/point_sample.h"
 
 namespace lampyris {
 namespace {
@@ -42,17 +43,7 @@ class SpotLight final : public Light {
   bool isDelta() const override { return true; }
 
   std::optional<LightSample> sample(uint32_t, const Vec3& from, const Vec2&) const override {
-    const Vec3 d = p_ - from;
-    const float squared = lengthSquared(d);
-    if (!(squared > 0)) return std::nullopt;
-    LightSample s;
-    s.distance = std::sqrt(squared);
-    s.wi = d / s.distance;
-    s.radiance = intensity_ * (falloff(-s.wi) / squared);
-    if (s.radiance.isBlack() || !s.radiance.isFinite()) return std::nullopt;
-    s.pdf = 1;
-    s.p = p_;
-    return s;
+    return samplePoint(p_, from, [this](const Vec3& w) { return intensity_ * falloff(w); });
   }
 
   Rgb power(uint32_t) const override {
