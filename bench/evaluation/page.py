@@ -23,7 +23,7 @@ def _series(scene, colour_of, x):
         mark = None
         if v["runs"]:
             e = v["errors"]["trimmed"]
-            mark = (v[x], e["value"], *(e["ci"] or (e["value"], e["value"])))
+            mark = (v["curve"][-1][x], e["value"], *(e["ci"] or (e["value"], e["value"])))
         if points or mark: yield {"title": v["title"], "colour": colour_of[v["name"]], "points": points, "bar": mark}
 
 
