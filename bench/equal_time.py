@@ -8,6 +8,7 @@ Interrupted, it goes on where it was when it is started again. docs/evaluation.m
 import argparse
 import datetime
 import json
+import math
 import os
 import subprocess
 import sys
@@ -21,6 +22,7 @@ def arguments():
     p.add_argument("suite", help="suite file")
     p.add_argument("--out", help="folder for images, records and results (build/bench/NAME)")
     p.add_argument("--binary", default=os.path.join(suites.ROOT, "build", "release", "lampyris"))
+    p.add_argument("--quick", action="store_true", help="a tenth of the time: to see that all works, not to quote")
     p.add_argument("--scenes", help="only these, separated by commas")
     p.add_argument("--seconds", type=float, help="of each run, instead of the suite's")
     p.add_argument("--repetitions", type=int, help="instead of the suite's")
@@ -55,16 +57,15 @@ def measure(suite, runner):
         try:
             file = runner.scene_file(s)
             references = schedule.reference_halves(runner, suite, s, file)
-            found = schedule.scene_runs(runner, suite, s, file)
-            yield summary.scene(suite, s, runner.scene_hash(file), references, found,
-                                lambda name: images.load(runner.path(name)))
+            found = schedule.scene_runs(runner, suite, s, file, references)
+            yield summary.scene(suite, s, runner.scene_hash(file), references, found, images.Folder(runner.out))
         except (Failed, OSError, ValueError, subprocess.CalledProcessError) as e:
             runner.say("  the scene is left out: %s" % e)
 
 
 def main():
     args = arguments()
-    try: suite = selected(suites.read(args.suite), args)
+    try: suite = selected(suites.read(args.suite, args.quick), args)
     except (suites.SuiteError, OSError) as e: sys.exit("error: %s" % e)
     out = args.out or os.path.join(suites.ROOT, "build", "bench", suite.name)
     runner = Runner(args.binary, out, suite.threads, lambda text: print(text, flush=True))
@@ -72,7 +73,9 @@ def main():
                "date": datetime.date.today().isoformat(), "seconds": suite.seconds, "threads": suite.threads,
                "repetitions": suite.repetitions, "machine": machine.machine(), "build": machine.build(args.binary),
                "variants": {v.name: v.title or v.name for v in suite.variants}, "scenes": []}
-    path = runner.path("results.json")
+    path, (seconds, renders) = runner.path("results.json"), suite.expected_seconds()
+    print("%s: %d renders of %.0f minutes in all; loading and evaluating come to that, what is done already goes off"
+          % (suite.name, renders, math.ceil(seconds / 60)), flush=True)
     try:
         for s in measure(suite, runner):
             results["scenes"].append(s)

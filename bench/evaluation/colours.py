@@ -25,7 +25,8 @@ def palette():
     return (255 * _srgb(*(np.interp(at, x, v) for v in (lightness, a, b))) + .5).astype(np.uint8)
 
 
-def indices(values, low, high):
-    """Places on the scale, which is logarithmic."""
-    t = np.log(np.maximum(values, 1e-30) / low) / np.log(high / low)
+def indices(values, low, high, logarithmic=True):
+    """Places on the scale. What is no number is shown as much, so that it is seen."""
+    if logarithmic: t = np.log(np.maximum(values, 1e-30) / low) / np.log(high / low)
+    else: t = (np.asarray(values, float) - low) / (high - low)
     return (np.clip(np.nan_to_num(t, nan=1.), 0, 1) * (STEPS - 1) + .5).astype(np.uint8)

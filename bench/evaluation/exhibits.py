@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The images of a scene on a page: sliders, enlarged details, error maps. Every image is in the page once, as a
+"""The images of a scene on a page: sliders, enlarged details, false-colour maps. Every image is in the page once, as a
 class of its style sheet; whatever shows it refers to that."""
 import base64
 import html
 
 import numpy as np
 
-from . import colours, images, measures
-from .plots import number
+from . import heatmaps, images, measures
 
 DETAIL = 6  # a detail is the sixth part of the image's shorter edge
 LABELS = "ABC"
@@ -15,12 +14,6 @@ LABELS = "ABC"
 
 def css_image(name, data):
     return ".%s{background-image:url(data:image/png;base64,%s)}" % (name, base64.b64encode(data).decode())
-
-
-def nice(value, up):
-    """The next of 1, 2, 5, 10, … above or below."""
-    steps = [m * 10. ** e for e in range(-8, 8) for m in (1, 2, 5)]
-    return min(s for s in steps if s >= value) if up else max(s for s in steps if s <= value)
 
 
 def details(error_map):
@@ -39,24 +32,22 @@ def details(error_map):
 
 
 class Exhibits:
-    """What to show of one scene. `load` gives the image of a file name of the results."""
+    """What to show of one scene. `files` reads the images that the results name."""
 
-    def __init__(self, scene, prefix, load):
+    def __init__(self, scene, prefix, files):
         self.prefix, self.variants = prefix, [v for v in scene["variants"] if v["runs"]]
-        halves = [load(name) for name in scene["reference"]["images"]]
+        halves = [files.image(name) for name in scene["reference"]["images"]]
         self.reference = (halves[0] + halves[1]) / 2
-        self.pictures, self.maps = [], []
+        self.pictures, errors = [], []
         for v in self.variants:
-            renders = [load(r["image"]) for r in v["runs"]]
+            renders = [files.image(r["image"]) for r in v["runs"]]
             self.pictures.append(renders[0])
             squares = np.mean([measures.relative_squares(i, self.reference) for i in renders], axis=0)
-            self.maps.append(np.sqrt(squares))
+            errors.append(np.sqrt(squares))
         self.height, self.width = self.reference.shape[:2]
-        self.details = details(self.maps[0]) if self.maps else []
-        # Without pixels that are exact, as where there is nothing to see.
-        errors = np.concatenate([np.array([.1]), *(m[m > 0] for m in self.maps)])
-        low, high = np.percentile(errors, (2, 99.5))
-        self.low, self.high = nice(max(low, 1e-4), False), nice(min(max(high, 1e-3), 1e6), True)
+        self.details = details(errors[0]) if errors else []
+        layers = [files.layers(v["aovs"]) if v["aovs"] else None for v in self.variants]
+        self.maps = heatmaps.maps(errors, layers, self.reference)
 
     def names(self):
         """(class, title) of the images: the reference first."""
@@ -64,12 +55,13 @@ class Exhibits:
             ("%s%d" % (self.prefix, k), v["title"]) for k, v in enumerate(self.variants)]
 
     def css(self):
-        exposure, ramp = images.exposure_for(self.reference), colours.palette()
-        shown = [images.png(images.tone_mapped(i, exposure)) for i in [self.reference, *self.pictures]]
+        exposure = images.exposure_for(self.reference)
+        shown = [images.png(*images.quantised(images.tone_mapped(i, exposure))) for i in [self.reference, *self.pictures]]
         out = [css_image(name, data) for (name, _), data in zip(self.names(), shown)]
-        out += [css_image("%se%d" % (self.prefix, k), images.png(colours.indices(m, self.low, self.high), ramp))
-                for k, m in enumerate(self.maps)]
+        out += [css_image(self.map_class(m, k), m.png(a)) for m in self.maps for k, a in enumerate(m.arrays) if a is not None]
         return "\n".join(out)
+
+    def map_class(self, m, k): return self.prefix + m.key + str(k)
 
     def slider(self, left, right):
         """Two of the images (by number in names()) with a border to move."""
@@ -101,18 +93,18 @@ class Exhibits:
             rows.append('<div class="tiles" style="--n:%d">%s</div>' % (min(6, len(self.names())), tiles))
         return "\n".join(rows)
 
-    def error_maps(self):
-        tiles = "".join(
-            '<div><div class="picture %se%d" style="aspect-ratio:%d/%d"></div>%s<small>median %s %%</small></div>' % (
-                self.prefix, k, self.width, self.height, html.escape(v["title"]), number(100 * float(np.median(m)), 2))
-            for k, (v, m) in enumerate(zip(self.variants, self.maps)))
-        return '<div class="tiles" style="--n:%d">%s</div>%s' % (min(6, max(2, len(self.maps))), tiles, self.scale())
+    def false_colours(self):
+        """A map of every quantity for each variant, of which one quantity is shown at a time."""
+        options = "".join('<option value="%d">%s</option>' % (k, html.escape(m.title)) for k, m in enumerate(self.maps))
+        sheets = "".join('<div class="sheet"%s><p class="facts"><b>%s.</b> %s</p>%s%s</div>' % (
+            " hidden" if k else "", html.escape(m.title.capitalize()), html.escape(m.text), self.tiles(m), m.scale())
+            for k, m in enumerate(self.maps))
+        return '<div class="sheets"><div class="choose"><label>shown: <select>%s</select></label></div>%s</div>' % (
+            options, sheets)
 
-    def scale(self):
-        stops = ",".join("#%02x%02x%02x" % tuple(c) for c in colours.palette()[::7])
-        span = np.log(self.high / self.low)
-        at = {v: np.log(v / self.low) / span for v in [self.low, self.high, *(10. ** e for e in range(-5, 8))]}
-        marks = "".join('<span style="left:%.1f%%">%s %%</span>' % (100 * t, number(100 * v, 1))
-                        for v, t in at.items() if t in (0, 1) or .2 < t < .8)
-        return ('<div class="scale"><span>relative error</span><div class="ramp picture" '
-                'style="background-image:linear-gradient(90deg,%s)">%s</div></div>' % (stops, marks))
+    def tiles(self, m):
+        tiles = "".join(
+            '<div><div class="picture %s" style="aspect-ratio:%d/%d"></div>%s<small>%s</small></div>' % (
+                self.map_class(m, k), self.width, self.height, html.escape(v["title"]), m.median(m.arrays[k]))
+            for k, v in enumerate(self.variants))
+        return '<div class="tiles" style="--n:%d">%s</div>' % (min(6, max(2, len(self.variants))), tiles)

@@ -1,16 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """Images as arrays [row, column, RGB] of doubles: reading renders, writing PNGs for pages."""
+import os
 import struct
 import zlib
 
 import numpy as np
 
+from . import exr
+
 
 def load(path):
-    """Linear RGB. PFM needs numpy only; OpenImageIO reads all else."""
-    image = _load_pfm(path) if path.endswith(".pfm") else _load_other(path)
+    """Linear RGB."""
+    image = _load_pfm(path) if path.endswith(".pfm") else np.stack([exr.read(path)[c] for c in "RGB"], -1).astype(float)
     if not np.isfinite(image).all(): raise ValueError("%s: values that are not finite" % path)
     return image
+
+
+class Folder:
+    """Where the images are that results name."""
+
+    def __init__(self, path): self.path = path
+    def image(self, name): return load(os.path.join(self.path, name))
+    def layers(self, name): return exr.read(os.path.join(self.path, name))
 
 
 def _load_pfm(path):
@@ -25,15 +36,6 @@ def _load_pfm(path):
     return image if channels == 3 else np.repeat(image, 3, axis=2)
 
 
-def _load_other(path):
-    import OpenImageIO as oiio
-    buffer = oiio.ImageBuf(path)
-    if buffer.has_error: raise OSError(buffer.geterror())
-    names = list(buffer.spec().channelnames)
-    pixels = np.asarray(buffer.get_pixels(oiio.FLOAT), np.float64)
-    return pixels[..., [names.index(c) for c in "RGB"]]
-
-
 def tone_mapped(image, exposure):
     """sRGB bytes."""
     c = np.clip(np.nan_to_num(image) * exposure, 0, 1)
@@ -45,6 +47,35 @@ def exposure_for(reference):
     """Middling: the 90th percentile of the luminance becomes 0.5, so that lamps clip and walls don't."""
     bright = np.percentile(reference @ (.2126, .7152, .0722), 90)
     return .5 / bright if bright > 0 else 1.
+
+
+def smaller(values, factor):
+    """Means over squares of factor x factor pixels; what doesn't fill one at the edges is left out."""
+    h, w = (n // factor for n in values.shape)
+    return values[:h * factor, :w * factor].reshape(h, factor, w, factor).mean(axis=(1, 3))
+
+
+def quantised(pixels, most=256):
+    """(indices, palette) of few colours near those of bytes [h, w, 3]: boxes of colours are split, each time the one
+    with the largest sum of squared differences, at its mean (after Heckbert 1982 and Wan et al. 1988)."""
+    colours = pixels.reshape(-1, 3).astype(np.float32)
+
+    def box(members):
+        spread = colours[members].var(axis=0)
+        return float(spread.max()) * len(members), int(spread.argmax()), members
+    boxes = [box(np.arange(len(colours)))]
+    while len(boxes) < most:
+        k = max(range(len(boxes)), key=lambda i: boxes[i][0])
+        if boxes[k][0] <= 0: break
+        _, axis, members = boxes.pop(k)
+        values = colours[members, axis]
+        above = values > values.mean()
+        if not above.any(): break
+        boxes += [box(members[above]), box(members[~above])]
+    indices = np.empty(len(colours), np.uint8)
+    for k, (_, _, members) in enumerate(boxes): indices[members] = k
+    palette = np.array([colours[m].mean(axis=0) + .5 for _, _, m in boxes]).astype(np.uint8)
+    return indices.reshape(pixels.shape[:2]), palette
 
 
 def png(pixels, palette=None):

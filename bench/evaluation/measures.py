@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is measured: errors against a reference, bias, efficiency, and how sure they are.
+"""What is measured: errors against a reference, and bias.
 
 The errors are those of `lampyris compare`. docs/evaluation.md says why each is what it is."""
 import numpy as np
@@ -7,8 +7,7 @@ import numpy as np
 METRICS = ("trimmed", "relmse", "mse")
 RELATIVE_FLOOR = .01  # of the reference's mean; keeps black pixels from deciding alone
 TRIMMED_SHARE = .001
-BOOTSTRAPS = 2000
-CONFIDENCE = .95
+BLOCK = 8  # pixels; wider than reconstruction filters and the patterns of samplers reach
 # Below this multiple of the reference's own error a difference says nothing about the image.
 LEAST_OVER_FLOOR = 2
 
@@ -40,46 +39,31 @@ def over_floor(error, floor):
     return error - floor if error > LEAST_OVER_FLOOR * floor else None
 
 
+def at_samples(curve, spp, metric):
+    """The error at a number of samples, between the points of a curve by a line in log-log; None outside of it."""
+    n = [p["spp"] for p in curve]
+    if not n or not n[0] <= spp <= n[-1]: return None
+    return float(np.exp(np.interp(np.log(spp), np.log(n), np.log([p[metric] for p in curve]))))
+
+
+def _block_sums(grey):
+    """Of the squares of pixels that an image consists of; those at its edges may be smaller."""
+    rows = np.add.reduceat(grey, np.arange(0, grey.shape[0], BLOCK), axis=0)
+    return np.add.reduceat(rows, np.arange(0, grey.shape[1], BLOCK), axis=1)
+
+
 def bias(images, halves):
     """Ratio of the means to the reference's, and by how many standard deviations it differs from 1.
 
-    Pixels are independent, so the variance of a mean is that of its pixels, estimated from repetitions: many
-    more degrees of freedom than the means of a few images have. Samplers that spread error as blue noise make
-    the true variance smaller, so |z| is if anything too small for them."""
+    The variance of a mean is that of its blocks of pixels, estimated from repetitions: many more degrees of
+    freedom than the means of a few images have. Pixels of a block may depend on each other, as they do by filters
+    and by samplers that spread error as blue noise."""
     reference = (halves[0] + halves[1]) / 2
-    stack = np.stack([i.mean(axis=2) for i in images])
-    ratio = float(stack.mean() / reference.mean())
+    grey = [i.mean(axis=2) for i in images]
+    difference = float(np.mean(grey) - reference.mean())
+    ratio = 1 + difference / float(reference.mean())
     if len(images) < 2: return {"ratio": ratio, "z": None}
-    pixels = stack[0].size
-    variance = stack.var(axis=0, ddof=1).sum() / pixels ** 2 / len(images)
-    variance += (((halves[0] - halves[1]).mean(axis=2) / 2) ** 2).sum() / pixels ** 2
-    difference = float(stack.mean() - reference.mean())
-    if variance > 0: return {"ratio": ratio, "z": difference / float(np.sqrt(variance))}
+    variance = np.var([_block_sums(g) for g in grey], axis=0, ddof=1).sum() / len(images)
+    variance += (_block_sums((halves[0] - halves[1]).mean(axis=2) / 2) ** 2).sum()
+    if variance > 0: return {"ratio": ratio, "z": difference * grey[0].size / float(np.sqrt(variance))}
     return {"ratio": ratio, "z": 0. if difference == 0 else None}
-
-
-def bootstrap(samples, statistic, seed=1):
-    """The statistic of the samples and its percentile interval over resamplings; no interval for fewer than two.
-
-    The last axis of the samples is the runs, and it is over this that the statistic goes."""
-    samples = np.asarray(samples, float)
-    value, count = float(statistic(samples)), samples.shape[-1]
-    if count < 2: return {"value": value, "ci": None}
-    drawn = np.random.default_rng(seed).integers(0, count, (BOOTSTRAPS, count))
-    tail = 50 * (1 - CONFIDENCE)
-    return {"value": value, "ci": [float(v) for v in np.percentile(statistic(samples[..., drawn]), (tail, 100 - tail))]}
-
-
-def mean(samples):
-    return bootstrap(samples, lambda s: s.mean(axis=-1))
-
-
-def efficiency(error_list, seconds):
-    """1 / (mean error x mean time)."""
-    return bootstrap([error_list, seconds], lambda s: 1 / s.mean(axis=-1).prod(axis=0))
-
-
-def ratio_of_pairs(base, other):
-    """How many times more efficient `other` is: the median over pairs of cost(base) / cost(other)."""
-    ratios = np.asarray(base, float) / np.asarray(other, float)
-    return {**bootstrap(ratios, lambda s: np.median(s, axis=-1)), "pairs": len(ratios)}

@@ -7,3 +7,8 @@ for (const figure of document.querySelectorAll(".comparison")) {
     select.addEventListener("change", () => { pane.className = "picture " + select.name + " " + select.value; });
   }
 }
+// The false-colour maps: one quantity at a time.
+for (const figure of document.querySelectorAll(".sheets")) {
+  const sheets = figure.querySelectorAll(".sheet");
+  figure.querySelector("select").addEventListener("change", (e) => sheets.forEach((s, k) => { s.hidden = k != e.target.value; }));
+}

@@ -2,7 +2,6 @@
 """The page of a results file: one HTML text that refers to nothing outside of itself."""
 import html
 import os
-from collections import Counter
 
 from . import plots, tables
 from .exhibits import Exhibits
@@ -24,7 +23,7 @@ def _series(scene, colour_of, x):
         mark = None
         if v["runs"]:
             e = v["errors"]["trimmed"]
-            mark = (v[x], e["value"], *(e["ci"] or (e["value"], e["value"])))
+            mark = (v["curve"][-1][x], e["value"], *(e["ci"] or (e["value"], e["value"])))
         if points or mark: yield {"title": v["title"], "colour": colour_of[v["name"]], "points": points, "bar": mark}
 
 
@@ -58,10 +57,10 @@ def _plots(scene, colour_of):
     efficiency = "efficiency, as a multiple of that of %s" % scene["base"]
     return '<div class="pair">%s</div>' % "".join((
         _figure(plots.convergence(list(_series(scene, colour_of, "seconds")), "seconds", error, floor),
-                "Error over time.", " Small marks: renders with given numbers of samples; large, hollow ones: the runs "
-                "of the table, with the 95 % interval of their mean. Further left is better."),
+                "Error over time.", " Small marks: on the way of the runs, means over them; large, hollow ones: their ends, "
+                "with the 95 % interval. Further left is better."),
         _figure(plots.convergence(list(_series(scene, colour_of, "spp")), "samples per pixel", error, floor),
-                "Error over samples.", " The same renders: what a sample is worth, whatever it costs."),
+                "Error over samples.", " The same runs: what a sample is worth, whatever it costs."),
         _figure(plots.intervals(_bars(scene, colour_of), efficiency),
                 "Efficiency", ", 1 / (error × time), with 95 % intervals over pairs of runs."),
         _figure(plots.worth(list(_worths(scene, colour_of))), "What a sample costs and what it is worth.",
@@ -73,7 +72,7 @@ def _pictures(shown):
                   " Choose two and move the border. The frames are the details beside it.")
     return '<div class="exhibit">%s%s</div>%s' % (
         one, _figure(shown.enlarged(), "Details", ", where the base errs most."),
-        _figure(shown.error_maps(), "Relative error", " of each pixel, the root mean square over the runs."))
+        _figure(shown.false_colours(), "What happens in each pixel.", " One scale for all light samplers of a scene; the lighter, the more."))
 
 
 def _warnings(scene):
@@ -99,9 +98,9 @@ def _facts(scene):
     return " · ".join(html.escape(f) for f in facts)
 
 
-def _scene(k, scene, colour_of, load):
+def _scene(k, scene, colour_of, files):
     """The section, and the style sheet of its images."""
-    shown = Exhibits(scene, "i%d" % k, load)
+    shown = Exhibits(scene, "i%d" % k, files)
     body = ['<section id="scene-%d"><h2><span class="n">%d</span>%s</h2><p class="facts">%s</p>' % (
         k, k, html.escape(scene["title"]), _facts(scene))]
     body += ['<p class="warning">%s</p>' % html.escape(w) for w in _warnings(scene)]
@@ -127,15 +126,12 @@ def _forest(scenes, colour_of, base):
                    " on a logarithmic axis, with 95 % intervals over pairs of runs.")
 
 
-def page(results, load):
-    """The HTML. `load` gives the image of a file name in the results."""
+def page(results, files):
+    """The HTML. `files` reads the images that the results name."""
     scenes = results["scenes"]
-    shown = {v["name"] for s in scenes for v in s["variants"]}
-    titles = {name: title for name, title in results["variants"].items() if name in shown}
-    base = Counter(s["base"] for s in scenes).most_common(1)[0][0]
-    ordered = [base] + [n for n in titles if n != base]
-    titles, colour_of = {n: titles[n] for n in ordered}, {n: k % COLOURS for k, n in enumerate(ordered)}
-    sections = [_scene(k + 1, s, colour_of, load) for k, s in enumerate(scenes)]
+    titles, base = tables.columns(results)
+    colour_of = {n: k % COLOURS for k, n in enumerate(titles)}
+    sections = [_scene(k + 1, s, colour_of, files) for k, s in enumerate(scenes)]
     how = {"date": results["date"], "a run": "%g s on %d threads" % (results["seconds"], results["threads"]),
            "repetitions": results["repetitions"], **{k: v for k, v in results["machine"].items()}}
     title = html.escape(results["title"])

@@ -23,6 +23,9 @@ class Task:
     define: tuple
     limit: tuple  # ("--seconds", "2") or ("--spp", "64")
     seed: int
+    snapshots: tuple = ()  # seconds
+    aovs: tuple = ()
+    judge: str = ""  # what the snapshots are held against: another one needs another run, for they aren't kept
 
 
 class Failed(Exception):
@@ -40,6 +43,10 @@ def file_hash(path):
         if os.path.isfile(other):
             with open(other, "rb") as f: digest.update(name + b"\0" + hashlib.sha256(f.read()).digest())
     return digest.hexdigest()
+
+
+def content_hash(path):
+    with open(path, "rb") as f: return hashlib.sha256(f.read()).hexdigest()
 
 
 def key_of(*parts):
@@ -67,9 +74,10 @@ class Runner:
         subprocess.run([sys.executable, script, kind, folder, *names], check=True)
         return os.path.join(folder, names[0].partition("=")[0] + ".pbrt")
 
-    def render(self, task, depends_on_binary=True):
-        """The record of the run, from its file if there is one that was made from the same things."""
-        key = key_of(self.scene_hash(task.scene), task.define, task.limit, task.seed,
+    def render(self, task, depends_on_binary=True, digest=None):
+        """The record of the run, from its file if there is one that was made from the same things. `digest` is given
+        a new record before it is kept."""
+        key = key_of(self.scene_hash(task.scene), task.define, task.limit, task.seed, task.snapshots, task.aovs, task.judge,
                      [self.binary_hash, self.threads] if depends_on_binary else [])
         record_path = self.path(task.where + ".json")
         try:
@@ -77,6 +85,7 @@ class Runner:
             if record["key"] == key and os.path.exists(self.path(record["image"])): return record
         except (OSError, ValueError, KeyError): pass
         record = self._run(task)
+        if digest: digest(record)
         record["key"] = key
         with open(record_path + ".tmp", "w") as f: json.dump(record, f, indent=1)
         os.replace(record_path + ".tmp", record_path)
@@ -85,8 +94,11 @@ class Runner:
     def _run(self, task):
         stem = self.path(task.where)
         os.makedirs(os.path.dirname(stem), exist_ok=True)
+        image = task.where + (".exr" if task.aovs else ".pfm")
         command = [self.binary, task.scene, *task.limit, "--seed", str(task.seed), "--threads", str(self.threads),
-                   "--stats", stem + ".stats.json", "--out", stem + ".pfm", "-q"]
+                   "--stats", stem + ".stats.json", "--out", self.path(image), "-q"]
+        if task.snapshots: command += ["--snapshots", ",".join("%gs" % t for t in task.snapshots)]
+        if task.aovs: command += ["--aov", ",".join(task.aovs)]
         for d in task.define: command += ["-D", d]
         self.say("  %-50s %s" % (task.where, " ".join(task.limit)))
         before, busy_before = time.monotonic(), _busy_seconds()
@@ -98,7 +110,7 @@ class Runner:
                                             text.strip()[-800:]))
         with open(stem + ".stats.json") as f: stats = json.load(f)
         cpu = usage.ru_utime + usage.ru_stime
-        return {"image": task.where + ".pfm", "seed": task.seed, "limit": list(task.limit), "wall": wall, "cpu": cpu,
+        return {"image": image, "seed": task.seed, "limit": list(task.limit), "wall": wall, "cpu": cpu,
                 "others": max(0., busy - cpu) / (wall * os.cpu_count()), "memory": usage.ru_maxrss * 1024,
                 "stats": stats}
 

@@ -2,8 +2,12 @@
 """Which renders a scene of a suite needs, and in which order."""
 import os
 
-from .runs import Failed, Task, key_of
+from . import images, measures
+from .runs import Failed, Task, content_hash, key_of
+from .suite import AOV_SHARE
 
+AOVS = ("lightcut", "bsdfshare", "lightentropy", "variance", "pathlength", "time")
+AOV_SEED = 0
 REFERENCE_SEED = 1000000  # runs have the seeds 1, 2, …: a reference must be independent of them
 
 
@@ -18,40 +22,42 @@ def reference_halves(runner, suite, scene, file):
                           depends_on_binary=False) for k in (0, 1)]
 
 
-def curve_points(runner, where, file, define, spps, seed):
-    """Renders with each number of samples: [{"spp", "seconds", "image"}]."""
-    points = []
-    for spp in sorted(spps):
-        record = runner.render(Task("%s-spp%d" % (where, spp), file, define, ("--spp", str(spp)), seed))
-        points.append({"spp": spp, "seconds": record["stats"]["seconds"]["render"], "image": record["image"]})
-    return points
+def held_against(reference):
+    """What makes of a record's snapshots the points of a curve: their errors stay, their images go."""
+    def digest(record):
+        record["curve"] = []
+        for shot in record["stats"].get("snapshots", []):
+            errors = measures.errors(images.load(shot["file"]), reference)
+            record["curve"].append({"seconds": shot["seconds"], "spp": shot["spp"], **errors})
+            os.remove(shot["file"])
+    return digest
 
 
-def scene_runs(runner, suite, scene, file):
-    """{variant: {"runs": [record], "curves": [points], "failed": text}}.
+def scene_runs(runner, suite, scene, file, references):
+    """{variant: {"runs": [record], "aovs": record or None, "failed": text}}.
 
     A repetition runs every variant once before the next begins, and each begins with another variant: what
     else the machine does in the meantime befalls all alike."""
     variants = suite.scene_variants(scene)
-    found = {v.name: {"runs": [], "curves": [], "failed": ""} for v in variants}
-    curve = suite.scene_curve(scene)
-    seconds = "%g" % suite.scene_seconds(scene)
+    found = {v.name: {"runs": [], "aovs": None, "failed": ""} for v in variants}
+    paths = [runner.path(r["image"]) for r in references]
+    judge, digest = key_of(*map(content_hash, paths)), held_against(sum(map(images.load, paths)) / len(paths))
+    seconds, snapshots = suite.scene_seconds(scene), tuple(suite.snapshot_seconds(scene))
 
-    def attempt(variant, action):
-        if found[variant.name]["failed"]: return
-        try: action(found[variant.name], tuple(suite.scene_define(scene) + variant.define))
+    def attempt(variant, name, limit, **options):
+        if found[variant.name]["failed"]: return None
+        define = tuple(suite.scene_define(scene) + variant.define)
+        task = Task("runs/%s/%s/%s" % (scene.name, variant.name, name), file, define, ("--seconds", "%g" % limit), **options)
+        try: return runner.render(task, digest=digest)
         except Failed as e:
             found[variant.name]["failed"] = str(e)
             runner.say("    %s failed: %s" % (variant.name, e))
 
-    for k in range(max(suite.repetitions, curve.repetitions if curve.spp else 0)):
+    for k in range(suite.repetitions):
         first = k % len(variants)
         for v in variants[first:] + variants[:first]:
-            where = "runs/%s/%s/%02d" % (scene.name, v.name, k)
-            if k < suite.repetitions:
-                attempt(v, lambda f, define: f["runs"].append(
-                    runner.render(Task(where, file, define, ("--seconds", seconds), k + 1))))
-            if curve.spp and k < curve.repetitions:
-                attempt(v, lambda f, define: f["curves"].append(
-                    curve_points(runner, where, file, define, curve.spp, k + 1)))
+            record = attempt(v, "%02d" % k, seconds, seed=k + 1, snapshots=snapshots, judge=judge)
+            if record: found[v.name]["runs"].append(record)
+    for v in variants:
+        found[v.name]["aovs"] = attempt(v, "aovs", seconds * AOV_SHARE, seed=AOV_SEED, aovs=AOVS)
     return found

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A suite file: scenes x variants, how long, how often. docs/evaluation.md describes the format."""
 import json
+import math
 import os
 from dataclasses import dataclass, field
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+SHORTEST_SNAPSHOT = .01  # seconds
+QUICK, QUICK_REPETITIONS = .1, 3
+AOV_SHARE = .25  # of the time of a run, for one that tells what happens in it
 
 
 class SuiteError(Exception):
@@ -27,12 +32,6 @@ class Reference:
 
 
 @dataclass
-class Curve:
-    spp: list = field(default_factory=list)
-    repetitions: int = 1
-
-
-@dataclass
 class Scene:
     name: str
     title: str = ""
@@ -43,7 +42,7 @@ class Scene:
     variants: list = field(default_factory=list)
     base: str = ""
     reference: Reference = None
-    curve: Curve = None
+    quick: dict = field(default_factory=dict)  # what is different with --quick
 
 
 @dataclass
@@ -59,7 +58,7 @@ class Suite:
     repetitions: int = 5
     threads: int = 0
     define: list = field(default_factory=list)
-    curve: Curve = field(default_factory=Curve)
+    snapshots: int = 6
 
     def scene_variants(self, scene):
         """The variants to run, the base first, then as listed."""
@@ -70,8 +69,28 @@ class Suite:
     def scene_base(self, scene): return scene.base or self.base
     def scene_seconds(self, scene): return scene.seconds or self.seconds
     def scene_reference(self, scene): return scene.reference or self.reference
-    def scene_curve(self, scene): return scene.curve or self.curve
     def scene_define(self, scene): return self.define + scene.define
+
+    def snapshot_seconds(self, scene):
+        """When curves have points: halves of the time of a run, quarters, …; the run's end comes last by itself."""
+        times = [self.scene_seconds(scene) / 2 ** k for k in range(self.snapshots, 0, -1)]
+        return [t for t in times if t >= SHORTEST_SNAPSHOT]
+
+    def quicken(self):
+        """A tenth of the time, or a little more. Three repetitions are the fewest that tell an interval worth its name."""
+        self.name, self.title = self.name + "-quick", (self.title or self.name) + " (quick)"
+        self.repetitions = min(self.repetitions, QUICK_REPETITIONS)
+        for s in [self, *self.scenes]: s.seconds *= QUICK
+        for r in [self.reference, *(s.reference for s in self.scenes if s.reference)]:
+            r.seconds, r.spp = r.seconds * QUICK, math.ceil(r.spp * QUICK)
+
+    def expected_seconds(self):
+        """Of all renders, loading left out; and how many renders these are."""
+        references = {(s.file, *s.generate, *self.scene_define(s), *self.scene_reference(s).define):
+                      2 * self.scene_reference(s).seconds for s in self.scenes}
+        runs = [(self.scene_seconds(s), len(self.scene_variants(s))) for s in self.scenes]
+        return (sum(references.values()) + sum(t * n * (self.repetitions + AOV_SHARE) for t, n in runs),
+                2 * len(references) + sum(n * (self.repetitions + 1) for _, n in runs))
 
 
 def _made(kind, data, where):
@@ -83,16 +102,15 @@ def _made(kind, data, where):
     except TypeError as e: raise SuiteError("%s: %s" % (where, e))
 
 
-def parse(data, where="suite"):
+def parse(data, where="suite", quick=False):
     suite = _made(Suite, data, where)
     suite.reference = _made(Reference, suite.reference, where + ", reference")
-    if isinstance(suite.curve, dict): suite.curve = _made(Curve, suite.curve, where + ", curve")
     suite.variants = [_made(Variant, v, where + ", variants") for v in suite.variants]
-    suite.scenes = [_made(Scene, s, where + ", scenes") for s in suite.scenes]
+    suite.scenes = [_made(Scene, {**s, **(s.get("quick", {}) if quick else {})}, where + ", scenes") for s in suite.scenes]
     for s in suite.scenes:
         if s.reference: s.reference = _made(Reference, s.reference, "%s, scene %s" % (where, s.name))
-        if s.curve: s.curve = _made(Curve, s.curve, "%s, scene %s" % (where, s.name))
     _check(suite, where)
+    if quick: suite.quicken()
     return suite
 
 
@@ -114,12 +132,12 @@ def _check(suite, where):
             raise SuiteError("scene %s: a reference has either 'seconds' or 'spp'" % s.name)
 
 
-def read(path):
+def read(path, quick=False):
     """Scene files are relative to the suite file."""
     with open(path) as f:
         try: data = json.load(f)
         except ValueError as e: raise SuiteError("%s: %s" % (path, e))
-    suite = parse(data, path)
+    suite = parse(data, path, quick)
     for s in suite.scenes:
         if s.file: s.file = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(path)), s.file))
     return suite

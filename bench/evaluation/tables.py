@@ -2,6 +2,7 @@
 """The tables of a page."""
 import html
 import math
+from collections import Counter
 
 from .measures import METRICS
 from .plots import count, marker, number
@@ -66,7 +67,7 @@ def variant_rows(scene, colour_of, cut_names):
             cells.append(cell(number(e["value"]), interval(e["ci"])))
         cells.append(bias_cell(v["bias"]))
         cells += ratio_cells(scene, v, best)
-        cells += [cell(number(v["light_cut"].get(n))) for n in cut_names]
+        cells += [cell(number(v["light_statistics"].get(n))) for n in cut_names]
         cells.append(cell(size(v["memory"]), number(v["load_seconds"], 2) + " s"))
         yield head + "".join(cells) + "</tr>"
 
@@ -74,18 +75,20 @@ def variant_rows(scene, colour_of, cut_names):
 def ratio_cells(scene, v, best):
     kind, equal = "best" if v["name"] == best else "", v["equal_samples"]
     if v["name"] == scene["base"]: return [cell("1", kind=kind), cell("1" if equal else "–")]
-    return [cell(*times(v["against_base"]["trimmed"]), kind), cell(*times(equal["trimmed"] if equal else None))]
+    ratio, ends = times(equal["trimmed"] if equal else None)
+    at = "<br>%s spp" % number(equal["spp"], 2) if equal else ""
+    return [cell(*times(v["against_base"]["trimmed"]), kind), cell(ratio, ends + at)]
 
 
 def scene_table(scene, colour_of):
-    cut_names = sorted({n for v in scene["variants"] if v["runs"] for n in v["light_cut"]})
-    equal = next((v["equal_samples"]["spp"] for v in scene["variants"] if v["equal_samples"]), None)
+    cut_names = sorted({n for v in scene["variants"] if v["runs"] for n in v["light_statistics"]})
     heads = ["time", "spp", "samples/s", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
-             "at %d spp" % equal if equal else "at equal spp", *map(html.escape, cut_names), "memory, load"]
+             "at equal spp", *map(html.escape, cut_names), "memory, load"]
     floor = scene["reference"]["floor"]
     caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the "
                "reference's, z its distance from 1 in standard deviations. <b>At equal time</b>: how many times less time "
-               "it needs than <i>%s</i> for the same %s; <b>at equal spp</b>: how many times smaller that error is. The "
+               "it needs than <i>%s</i> for the same %s; <b>at equal spp</b>: how many times smaller that error is, at the most samples "
+               "that all runs of both have. <b>Lights drawn</b> and <b>entropy</b>: means over the points where lights are sampled. The "
                "reference's own error: %s." % (
                    html.escape(scene["base"]), METRIC_TITLES["trimmed"],
                    ", ".join("%s %s" % (METRIC_TITLES[m], number(floor[m], 2)) for m in METRICS)))
@@ -106,12 +109,27 @@ def geometric_means(scenes, titles, base):
     return {n: math.exp(sum(math.log(r[n]["value"]) for r in ratios) / len(ratios)) for n in complete}, len(ratios)
 
 
-def mean_row(scenes, titles, base):
+def columns(results):
+    """({name: title} of the variants that any scene has, the most common base first; that base)."""
+    scenes = results["scenes"]
+    shown = {v["name"] for s in scenes for v in s["variants"]}
+    base = Counter(s["base"] for s in scenes).most_common(1)[0][0]
+    ordered = [base] + [n for n in results["variants"] if n in shown and n != base]
+    return {n: results["variants"][n] for n in ordered}, base
+
+
+def mean_entries(scenes, titles, base):
+    """(what it is a mean of, entries), if that is of more than one scene."""
     means, counted = geometric_means(scenes, titles, base)
-    if counted < 2: return ""
-    shown = ["–" if n not in means else "1" if n == base else number(means[n]) + "×" for n in titles]
-    return '<tfoot><tr><th scope="row">geometric mean of %d</th><td></td>%s</tr></tfoot>' % (
-        counted, "".join(map(cell, shown)))
+    if counted < 2: return None
+    return "geometric mean of %d" % counted, [
+        "–" if n not in means else "1" if n == base else number(means[n]) + "×" for n in titles]
+
+
+def mean_row(scenes, titles, base):
+    found = mean_entries(scenes, titles, base)
+    return found and '<tfoot><tr><th scope="row">%s</th><td></td>%s</tr></tfoot>' % (
+        found[0], "".join(map(cell, found[1]))) or ""
 
 
 def overview(scenes, titles, colour_of, base):
@@ -130,6 +148,6 @@ def overview(scenes, titles, colour_of, base):
             k + 1, html.escape(s["title"]), count(s["lights"]), "".join(cells)))
     heads = "".join('<th class="name">%s%s</th>' % (swatch(colour_of[n]), html.escape(t)) for n, t in titles.items())
     caption = ("How many times less time each needs for the same error (trimmed relMSE) as the scene's base, the one with "
-               "1: the median over pairs of runs, below it the 95 % interval. Bold: the best.")
+               "1: the mean over pairs of runs, below it the 95 % interval. Bold: the best.")
     return table(caption, "<th>scene</th><th>lights</th>" + heads, "".join(rows),
                  mean_row(scenes, titles, base))

@@ -21,7 +21,7 @@ try:
 except ImportError:
     print("SKIPPED: numpy is missing (Debian: python3-numpy)")
     sys.exit(0)
-from evaluation import colours, images, measures, plots, suite as suites  # noqa: E402
+from evaluation import colours, exr, heatmaps, images, intervals, measures, plots, suite as suites, tables  # noqa: E402
 from generator import splitting, thesis  # noqa: E402
 
 
@@ -85,26 +85,84 @@ class Measures(unittest.TestCase):
 
     def test_z_is_standard_normal(self):
         rng = np.random.default_rng(4)
-        z = [measures.bias([noisy(rng, .3, (8, 8, 3)) for _ in range(3)],
-                           [noisy(rng, .2, (8, 8, 3)) for _ in range(2)])["z"] for _ in range(400)]
+        z = [measures.bias([noisy(rng, .3, (64, 64, 3)) for _ in range(3)],
+                           [noisy(rng, .2, (64, 64, 3)) for _ in range(2)])["z"] for _ in range(400)]
         self.assertAlmostEqual(np.std(z), 1, delta=.15)
         self.assertAlmostEqual(np.mean(z), 0, delta=.2)
+        # |z| > 4 is marked, which chance does once in 16,000 times.
+        self.assertLess(np.abs(z).max(), 4)
 
-    def test_interval_covers_the_truth_as_often_as_it_says(self):
+    def test_pixels_that_depend_on_each_other_raise_no_alarm(self):
+        def blurred(sigma):
+            image = noisy(rng, sigma, (65, 65, 3))
+            return (image[1:, 1:] + image[:-1, 1:] + image[1:, :-1] + image[:-1, :-1]) / 4
+        rng = np.random.default_rng(8)
+        z = [measures.bias([blurred(.3) for _ in range(3)], [blurred(.2) for _ in range(2)])["z"] for _ in range(300)]
+        self.assertAlmostEqual(np.std(z), 1.1, delta=.2)
+
+    def test_two_per_cent_are_found(self):
+        rng = np.random.default_rng(9)
+        halves = [noisy(rng, .1, (64, 64, 3)) for _ in range(2)]
+        z = [measures.bias([scale * noisy(rng, .3, (64, 64, 3)) for _ in range(3)], halves)["z"]
+             for scale in (1.02, .98)]
+        self.assertGreater(z[0], 4)
+        self.assertLess(z[1], -4)
+
+    def test_errors_between_the_points_of_a_curve(self):
+        curve = [{"spp": n, "mse": 3 / n ** 1.5} for n in (1, 4, 32)]
+        self.assertAlmostEqual(measures.at_samples(curve, 9, "mse"), 3 / 27)
+        self.assertIsNone(measures.at_samples(curve, .9, "mse"))
+        self.assertIsNone(measures.at_samples(curve, 33, "mse"))
+
+
+class Intervals(unittest.TestCase):
+    """What two suites tell of one machine: few repetitions, errors with tails, a machine that is busy now and then."""
+    REPETITIONS, TRUTH = 5, 3.
+
+    def ratio(self, rng):
+        n = self.REPETITIONS
+        busy = rng.uniform(1, 2, n)  # befalls both of a pair
+        base, other = (rng.lognormal(0, .05, n) * rng.chisquare(40, n) / 40 * busy for _ in range(2))
+        return intervals.ratio_of_pairs(self.TRUTH * base, other)
+
+    def test_quantiles_are_those_of_tables(self):
+        for freedom, t in ((1, 12.706), (2, 4.303), (4, 2.776), (30, 2.042), (1000, 1.962)):
+            self.assertAlmostEqual(intervals.t_quantile(freedom), t, delta=.003)
+
+    def test_ratios_hold_the_truth_as_often_as_they_say(self):
         rng = np.random.default_rng(5)
-        hits = 0
-        for _ in range(100):
-            low, high = measures.mean(rng.normal(5, 1, 30))["ci"]
-            hits += low < 5 < high
-        self.assertGreaterEqual(hits, 85)
+        ends = np.array([self.ratio(rng)["ci"] for _ in range(3000)])
+        held = ((ends[:, 0] < self.TRUTH) & (self.TRUTH < ends[:, 1])).mean()
+        self.assertAlmostEqual(held, .95, delta=.015)
+
+    def test_two_suites_agree(self):
+        rng = np.random.default_rng(6)
+        apart = 0
+        for _ in range(1500):
+            a, b = self.ratio(rng)["ci"], self.ratio(rng)["ci"]
+            apart += a[1] < b[0] or b[1] < a[0]
+        self.assertLess(apart / 1500, .01)
+
+    def test_means_hold_the_truth_as_often_as_they_say(self):
+        rng = np.random.default_rng(10)
+        samples = rng.chisquare(40, (2000, self.REPETITIONS)) / 40
+        ends = np.array([intervals.mean(s)["ci"] for s in samples])
+        self.assertAlmostEqual(((ends[:, 0] < 1) & (1 < ends[:, 1])).mean(), .95, delta=.015)
+        self.assertTrue((ends > 0).all())
+
+    def test_efficiencies_hold_the_truth_as_often_as_they_say(self):
+        rng = np.random.default_rng(11)
+        ends = np.array([intervals.efficiency(rng.chisquare(40, 5) / 40, 2 * rng.lognormal(0, .05, 5))["ci"]
+                         for _ in range(2000)]) * 2
+        self.assertAlmostEqual(((ends[:, 0] < 1) & (1 < ends[:, 1])).mean(), .95, delta=.015)
 
     def test_one_sample_has_no_interval(self):
-        self.assertIsNone(measures.mean([3.])["ci"])
+        self.assertEqual(intervals.mean([3.]), {"value": 3., "ci": None})
 
     def test_pairs_cancel_what_befalls_both(self):
         rng = np.random.default_rng(6)
         load = rng.uniform(1, 10, 20)  # how busy the machine is from pair to pair
-        ratio = measures.ratio_of_pairs(3 * load * rng.normal(1, .02, 20), load * rng.normal(1, .02, 20))
+        ratio = intervals.ratio_of_pairs(3 * load * rng.normal(1, .02, 20), load * rng.normal(1, .02, 20))
         self.assertAlmostEqual(ratio["value"], 3, delta=.1)
         self.assertLess(ratio["ci"][1] - ratio["ci"][0], .2)
 
@@ -129,6 +187,33 @@ class Pictures(unittest.TestCase):
         grey = colours.palette() @ (.2126, .7152, .0722)
         self.assertTrue((np.diff(grey) > 0).all())
         self.assertEqual(colours.indices(np.array([0, 1e9, np.nan]), .01, 10).tolist(), [0, 63, 63])
+        self.assertEqual(colours.indices(np.array([2, 5, 8]), 2, 8, logarithmic=False).tolist(), [0, 32, 63])
+
+    def test_blocks_of_exr_are_unpacked(self):
+        data = np.random.default_rng(1).integers(0, 9, 101).astype(np.uint8)
+        parted = np.concatenate([data[0::2], data[1::2]]).astype(np.int64)
+        steps = np.diff(parted, prepend=0)
+        steps[1:] += 128
+        packed = zlib.compress(steps.astype(np.uint8).tobytes())
+        self.assertEqual(exr._unpacked(packed, 101), data.tobytes())
+        self.assertEqual(exr._unpacked(data.tobytes(), 101), data.tobytes())
+
+    def test_few_colours_stay_exact_and_many_near(self):
+        rng = np.random.default_rng(2)
+        few = rng.integers(0, 256, (9, 3)).astype(np.uint8)[rng.integers(0, 9, (20, 30))]
+        indices, palette = images.quantised(few)
+        self.assertTrue((palette[indices] == few).all())
+        ramp = np.stack(np.broadcast_arrays(np.arange(200)[:, None], np.arange(200)[None], 90), -1).astype(np.uint8)
+        indices, palette = images.quantised(ramp)
+        self.assertLess(np.sqrt(((palette[indices].astype(float) - ramp) ** 2).mean()), 5)
+
+    def test_smaller_images_are_means(self):
+        self.assertEqual(images.smaller(np.arange(15.).reshape(3, 5), 2).tolist(), [[3, 5]])
+
+    def test_scales_of_maps_have_round_ends(self):
+        m = heatmaps.Map("x", "", "", [np.geomspace(.013, 7, 1000), None], logarithmic=True).fit()
+        self.assertEqual((m.low, m.high), (.01, 10))
+        self.assertEqual(heatmaps.Map("x", "", "", [np.ones((4, 4))], low=1).fit().high, 2)
 
 
 class Numbers(unittest.TestCase):
@@ -159,6 +244,13 @@ class SuiteFiles(unittest.TestCase):
                 suites.parse({**json.loads(json.dumps(good)), **change})
 
 
+    def test_quick_is_a_tenth(self):
+        path = os.path.join(BENCH, "suites", "thesis.json")
+        full, quick = (suites.read(path, q).expected_seconds()[0] for q in (False, True))
+        self.assertLess(full, 25 * 60)
+        self.assertLess(quick, 2.5 * 60)
+
+
 class Links(HTMLParser):
     """Everything in a page that could refer to something else; and whether elements close."""
     VOID = {"meta", "input", "link", "img", "br"}
@@ -182,10 +274,10 @@ class Links(HTMLParser):
 class WholeSuites(unittest.TestCase):
     SUITE = {
         "name": "made-up", "title": "Made <up>", "seconds": 2, "repetitions": 4, "threads": 1, "base": "plain",
-        "reference": {"define": ["fake.variance=1"], "spp": 20000}, "curve": {"spp": [1, 16], "repetitions": 2},
+        "reference": {"define": ["fake.variance=1"], "spp": 20000}, "snapshots": 2,
         "variants": [{"name": "plain", "define": ["fake.variance=1"]},
                      {"name": "better", "define": ["fake.variance=0.1", "fake.cost=2"]},
-                     {"name": "biased", "define": ["fake.variance=0.5", "fake.bias=0.05"]},
+                     {"name": "biased", "define": ["fake.variance=0.5", "fake.bias=0.02"]},
                      {"name": "broken", "define": ["fake.variance=1", "fake.fail=1"]}],
         "scenes": [{"name": "grey", "file": "grey.pbrt"},
                    {"name": "other", "file": "grey.pbrt", "variants": ["plain", "better"]}]}
@@ -223,12 +315,15 @@ class WholeSuites(unittest.TestCase):
         self.assertTrue(low <= v["better"]["against_base"]["mse"]["value"] <= high)
         self.assertAlmostEqual(v["plain"]["errors"]["mse"]["value"], 1 / 100, delta=.001)
         self.assertAlmostEqual(v["better"]["errors"]["mse"]["value"], .1 / 50, delta=.0002)
-        self.assertEqual([p["spp"] for p in v["plain"]["curve"]], [1, 16])
-        self.assertEqual(v["plain"]["light_cut"], {"mean lights": 4.5})
+        self.assertEqual([p["spp"] for p in v["plain"]["curve"]], [25, 50, 100])
+        self.assertEqual(v["better"]["equal_samples"]["spp"], 50)
+        self.assertEqual(v["plain"]["light_statistics"], {"lights drawn": 4.5, "entropy, bits": 2})
         self.assertLess(abs(v["plain"]["bias"]["z"]), 5)
         self.assertGreater(v["biased"]["bias"]["z"], 10)
         self.assertIn("always fails", v["broken"]["failed"])
         self.assertEqual(v["broken"]["runs"], [])
+        left = [f for _, _, files in os.walk(os.path.join(self.folder, "out", "runs")) for f in files if f.endswith("s.exr")]
+        self.assertEqual(set(left), {"aovs.exr"})  # no snapshots
 
     def test_goes_on_where_it_was(self):
         folder = os.path.join(self.folder, "copy")
@@ -267,7 +362,19 @@ class WholeSuites(unittest.TestCase):
         self.assertIn("always fails", text)
         self.assertIn("A mean differs from the reference", text)
         self.assertEqual(text.count("<polyline"), 2 * (3 + 2))
+        self.assertEqual(text.count('class="sheet"'), 2 * 7)
         self.assertNotIn("nan", [n for n in text.lower().split('"') if len(n) < 9])
+
+    def test_markdown_has_the_numbers_of_the_page(self):
+        results = os.path.join(self.folder, "out", "results.json")
+        done = subprocess.run([sys.executable, os.path.join(BENCH, "report.py"), results, "--markdown"],
+                              check=True, capture_output=True, text=True)
+        rows = [[c.strip() for c in line.strip("|").split("|")] for line in done.stdout.splitlines()]
+        self.assertEqual(rows[0], ["scene", "lights", "plain", "better", "biased", "broken"])
+        with open(results) as f: told = json.load(f)["scenes"][0]["variants"][1]["against_base"]["trimmed"]
+        self.assertEqual(rows[2][3], "%s× (%s)" % (plots.number(told["value"]), tables.interval(told["ci"])))
+        self.assertEqual(rows[2][5], "failed")
+        self.assertEqual(rows[4][0], "geometric mean of 2")
 
 
 if __name__ == "__main__":
