@@ -3,7 +3,7 @@
 
 All that is told (errors, efficiencies, ratios) is positive and varies by factors, so its logarithm is nearer to
 normal than itself, and no interval reaches below 0. Percentiles of a bootstrap are too narrow here: of five
-repetitions they hold the truth in 85 % of cases where they promise 95 %."""
+repetitions they hold the truth clearly less often than they promise."""
 import numpy as np
 
 CONFIDENCE = .95
