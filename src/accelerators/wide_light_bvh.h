@@ -33,7 +33,7 @@ class LightSplitting {
 
   bool never() const { return maxCut_ <= 1; }
   uint32_t maxCut() const { return maxCut_; }
-  /// A cluster is split where its squared radius is more than this times the squared length of the
+  /// A cluster is split where its squared radius is at least this times the squared length of the
   /// tangent to its bounding sphere.
   float ratio() const { return ratio_; }
   /// Whether each of so many lights is shaded, whatever their importance.

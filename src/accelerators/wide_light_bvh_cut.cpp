@@ -8,6 +8,7 @@
 // light in all. So no light's chance is ever nought, the budget is never exceeded, and a strong
 // child is no longer left to chance.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "accelerators/wide_light_bvh.h"
@@ -38,7 +39,7 @@ Shares::Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable) 
   for (size_t i = 0; i < kWidth; ++i) {
     const auto w = static_cast<double>(weights.of[i]);
     const double share = w * scale;
-    if (!(share >= 1)) {
+    if (!(share >= 1) || left == 0) {
       restWeight += w;
       rest += w > 0;
       continue;
@@ -47,12 +48,24 @@ Shares::Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable) 
     group[i] = static_cast<uint8_t>(groups);
     weight[groups] = w;
     const uint32_t own = splittable >> i & 1 ? static_cast<uint32_t>(share) : 1;
-    budget[groups++] = std::min(own, left);
-    left -= std::min(own, left);
+    budget[groups] = std::min(own, left);
+    left -= budget[groups++];
   }
   if (rest == 0) return;
-  // The whole parts leave at least 1 for the rest, but for rounding.
-  const uint32_t restGroups = std::clamp(left, 1u, rest);
+  // The whole parts leave at least 1 for the rest, but for rounding: then the last strong child
+  // gives up one.
+  if (left == 0) {
+    left = 1;
+    if (budget[groups - 1] > 1) {
+      --budget[groups - 1];
+    } else {
+      const auto demoted = static_cast<size_t>(std::bit_width(strong) - 1);
+      strong ^= 1u << demoted;
+      restWeight += static_cast<double>(weights.of[demoted]);
+      ++rest, --groups;
+    }
+  }
+  const uint32_t restGroups = std::min(left, rest);
   double before = 0;
   int last = -1;
   for (size_t i = 0; i < kWidth; ++i) {
@@ -121,7 +134,7 @@ class WideLightBVH::Cut {
 
 uint32_t WideLightBVH::rootBudget(const LightReceiver& at, const LightSplitting& splitting) const {
   const Vec3 d = center_ - at.position();
-  const bool isNear = radius2_ > splitting.ratio() * (dot(d, d) - radius2_);
+  const bool isNear = radius2_ >= splitting.ratio() * (dot(d, d) - radius2_);
   return isNear ? splitting.maxCut() : 1;
 }
 

@@ -166,7 +166,7 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
 
 [[gnu::flatten]] uint8_t nearChildren(const WideLightBVHNode& node, const Vec3& p, float ratio) {
   const Geometry g(node, p);
-  const auto isNear = g.r2 > ratio * (g.d2 - g.r2);
+  const auto isNear = g.r2 >= ratio * (g.d2 - g.r2);
   uint8_t set = 0;
   for (size_t i = 0; i < WideLightBVHNode::kWidth; ++i)
     set = static_cast<uint8_t>(set | (isNear[i] ? 1u << i : 0u));

@@ -22,7 +22,7 @@ struct ChildWeights {
 ChildWeights importances(const WideLightBVHNode& node, const LightReceiver& at);
 
 /// The children (as bits) whose bounding sphere, of squared radius r² at distance d, has
-/// r² > ratio · (d² − r²).
+/// r² ≥ ratio · (d² − r²).
 uint8_t nearChildren(const WideLightBVHNode& node, const Vec3& p, float ratio);
 
 }  // namespace lampyris

@@ -30,11 +30,15 @@ struct Place {
   float scale = 1;
   Vec3 offset{0};
   Vec3 operator()(const Vec3& p) const { return offset + scale * p; }
+  operator Transform() const {
+    return Transform::translate(offset) * Transform::scale(Vec3(scale));
+  }
 };
 
 std::unique_ptr<LightScene> emptyScene(const std::string& name, const Place& place = {}) {
   auto s = std::make_unique<LightScene>();
   s->name = name;
+  s->scale = place.scale;
   s->bounds = Bounds3(place(Vec3(0)), place(Vec3(1)));
   return s;
 }
@@ -83,13 +87,13 @@ void addQuads(LightScene& s, size_t count, bool twoSided, const Place& place = {
 }
 
 /// Slide projectors and goniometric lights that face all ways, half of them with an image.
-void addPatterns(LightScene& s, size_t count) {
+void addPatterns(LightScene& s, size_t count, const Transform& cube) {
   Image image(5, 3, 3);
   for (size_t i = 0; i < image.data().size(); ++i) image.data()[i] = i % 4 ? 0.f : 1.f;
   const std::string map = testing::TempDir() + "pattern.pfm";
   writeImageFile(map, image);
   for (size_t i = 0; i < count; ++i) {
-    const Transform place = Transform::translate(randomPoint(i, 70)) *
+    const Transform place = cube * Transform::translate(randomPoint(i, 70)) *
                             Transform::rotate(360 * uniform(21, i, 73), randomDirection(i, 74));
     TestParameters::List list;
     if (i % 2) list.push_back({"mapname", map});
@@ -100,7 +104,7 @@ void addPatterns(LightScene& s, size_t count) {
 }
 
 /// A square of 200 triangles that emits a picture: a third black, one texel very bright.
-void addPicture(LightScene& s) {
+void addPicture(LightScene& s, const Place& place) {
   Image image(7, 6, 3);
   for (size_t i = 0; i < image.data().size(); ++i)
     image.data()[i] = i < 42 ? 0.f : uniform(21, i, 80);
@@ -112,7 +116,7 @@ void addPicture(LightScene& s) {
   TriangleMeshData mesh;
   for (uint32_t i = 0; i < (kSide + 1) * (kSide + 1); ++i) {
     const Vec2 at = Vec2(i % (kSide + 1), i / (kSide + 1)) / static_cast<float>(kSide);
-    mesh.positions.emplace_back(at.x, at.y, 0.5f);
+    mesh.positions.push_back(place({at.x, at.y, 0.5f}));
     mesh.uvs.push_back(at);
   }
   for (uint32_t y = 0; y < kSide; ++y)
@@ -164,42 +168,44 @@ std::optional<LightBounds> CloudLight::bounds(uint32_t i) const {
   return b;
 }
 
-std::vector<std::unique_ptr<LightScene>> smallLightScenes() {
+std::vector<std::unique_ptr<LightScene>> smallLightScenes(float scale) {
   std::vector<std::unique_ptr<LightScene>> all;
-  const auto keep = [&all](std::unique_ptr<LightScene> s) -> LightScene& {
-    all.push_back(std::move(s));
+  const Place place{scale, Vec3(0)};
+  const std::string suffix = scale == 1 ? "" : scale < 1 ? ", tiny" : ", huge";
+  const auto keep = [&](const std::string& name) -> LightScene& {
+    all.push_back(emptyScene(name + suffix, place));
     return *all.back();
   };
-  keep(emptyScene("none"));
-  addNamed(keep(emptyScene("one point")), "point", {{"from", "0.5 0.5 0.5"}});
-  addNamed(keep(emptyScene("one sky")), "infinite", {});
-  addNamed(keep(emptyScene("one spot")), "spot", {{"to", "1 1 1"}});
-  addCloud(keep(emptyScene("points")), Cloud::Points, 1000);
-  addCloud(keep(emptyScene("line")), Cloud::Line, 300);
-  addCloud(keep(emptyScene("spots")), Cloud::Spots, 300);
-  addQuads(keep(emptyScene("one-sided")), 150, false);
-  addQuads(keep(emptyScene("two-sided")), 150, true);
-  addPatterns(keep(emptyScene("patterns")), 60);
-  addPicture(keep(emptyScene("picture")));
-  LightScene& suns = keep(emptyScene("no positions"));
-  addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 1"}});
-  addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 -1"}});
-  addNamed(suns, "distant", {{"to", "0 0 0"}, {"from", "0 1 1"}, {"L", "0 0 0"}});
-  keep(mixed("mixed", {}));
-  keep(mixed("mixed, tiny", {1e-4f, Vec3(0)}));
-  keep(mixed("mixed, huge", {1e4f, Vec3(0)}));
-  keep(mixed("mixed, far away", {1, Vec3(1e4f, -2e4f, 5e3f)}));
-  LightScene& dark = keep(emptyScene("some without power"));
-  addNamed(dark, "point", {{"I", "0 0 0"}});
-  addNamed(dark, "point", {{"from", "0.2 0.3 0.9"}});
-  addNamed(dark, "infinite", {{"L", "0 0 0"}});
-  addNamed(dark, "spot", {{"from", "0.9 0.3 0.9"}, {"to", "0.2 0.2 0.2"}, {"coneangle", "60"}});
-  addNamed(keep(emptyScene("all without power")), "point", {{"I", "0 0 0"}});
-  LightScene& contrast = keep(emptyScene("intensities"));
+  const auto named = [&](LightScene& s, const std::string& name, const TestParameters::List& list) {
+    addNamed(s, name, list, place);
+  };
+  keep("none");
+  named(keep("one point"), "point", {{"from", "0.5 0.5 0.5"}});
+  named(keep("one sky"), "infinite", {});
+  named(keep("one spot"), "spot", {{"to", "1 1 1"}});
+  addCloud(keep("points"), Cloud::Points, 1000, place);
+  addCloud(keep("line"), Cloud::Line, 300, place);
+  addCloud(keep("spots"), Cloud::Spots, 300, place);
+  addQuads(keep("one-sided"), 150, false, place);
+  addQuads(keep("two-sided"), 150, true, place);
+  addPatterns(keep("patterns"), 60, place);
+  addPicture(keep("picture"), place);
+  LightScene& suns = keep("no positions");
+  named(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 1"}});
+  named(suns, "distant", {{"to", "0 0 0"}, {"from", "0 0 -1"}});
+  named(suns, "distant", {{"to", "0 0 0"}, {"from", "0 1 1"}, {"L", "0 0 0"}});
+  all.push_back(mixed("mixed" + suffix, place));
+  all.push_back(mixed("mixed, far away" + suffix, {scale, scale * Vec3(1e4f, -2e4f, 5e3f)}));
+  LightScene& dark = keep("some without power");
+  named(dark, "point", {{"I", "0 0 0"}});
+  named(dark, "point", {{"from", "0.2 0.3 0.9"}});
+  named(dark, "infinite", {{"L", "0 0 0"}});
+  named(dark, "spot", {{"from", "0.9 0.3 0.9"}, {"to", "0.2 0.2 0.2"}, {"coneangle", "60"}});
+  named(keep("all without power"), "point", {{"I", "0 0 0"}});
+  LightScene& contrast = keep("intensities");
   for (const char* i : {"1e-12", "1e12", "1"})
-    addNamed(
-        contrast, "point",
-        {{"I", std::string(i) + " " + i + " " + i}, {"from", i[1] == 'e' ? "1 0 0" : "0 0 1"}});
+    named(contrast, "point",
+          {{"I", std::string(i) + " " + i + " " + i}, {"from", i[1] == 'e' ? "1 0 0" : "0 0 1"}});
   return all;
 }
 

@@ -39,6 +39,7 @@ class CloudLight final : public Light {
 
 struct LightScene {
   std::string name;
+  float scale = 1;  ///< edge of the cube that the lights are in
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<std::unique_ptr<Light>> lights;
   LightTable table;
@@ -52,7 +53,7 @@ struct LightScene {
 };
 
 /// Lights of every kind, few enough that all of them can be summed up at each point.
-std::vector<std::unique_ptr<LightScene>> smallLightScenes();
+std::vector<std::unique_ptr<LightScene>> smallLightScenes(float scale = 1);
 /// `count` lights at one point.
 std::unique_ptr<LightScene> coincidentLights(size_t count);
 /// Random lights in the unit cube.
