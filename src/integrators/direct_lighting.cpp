@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/direct_lighting.h"
 
-#include <algorithm>
-
 #include "core/sampling.h"
 
 namespace lampyris {
@@ -17,8 +15,6 @@ constexpr float kShadowEnd = 1 - 1e-4f;
 /// mean squared error was 8 % lower with an environment light and glossy surfaces; in Veach's MIS
 /// scene and in rooms with one emitter the difference was below what such a comparison can tell.
 float misWeight(float density, float other) { return balanceHeuristic(density, other); }
-
-int samplesOf(const Light& light) { return std::max(1, light.samples()); }
 
 }  // namespace
 
@@ -38,12 +34,13 @@ DirectLighting::DirectLighting(const Scene& scene, LightStrategy strategy,
   for (size_t i = 0; i < table.objectCount(); ++i) {
     const int n = samplesOf(table.object(i));
     lightDimensions_ += 2 * static_cast<uint32_t>(n) * table.object(i).elementCount();
-    if (!table.object(i).isDelta()) bsdfDraws_ = std::max(bsdfDraws_, n);
+    if (strategy == LightStrategy::All && !table.object(i).isDelta())
+      bsdfDraws_ = std::max(bsdfDraws_, n);
   }
 }
 
 float DirectLighting::expectedDraws(const LightSampleContext& at, LightId light) const {
-  if (strategy_ == LightStrategy::All)
+  if (strategy_ != LightStrategy::One)
     return static_cast<float>(samplesOf(*scene_.lightTable[light].light));
   if (!distribution_) return 0;
   return splits_ ? distribution_->expectedCount(at, light) : distribution_->pmf(at, light);
@@ -114,7 +111,7 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
   const Rgb f = bsdf.f(at.wo, s->wi);
   if (f.isBlack()) return Rgb();
   ++rays.shadow;
-  if (occluded(at, time, *s)) return Rgb();
+  if (scene_.geometry->occluded(shadowRay(at, time, *s))) return Rgb();
   const float density = chosen.pmf * s->pdf;
   const float weight =
       entry.light->isDelta()
@@ -123,8 +120,7 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
   return s->radiance * f * (bsdf.absCosTheta(s->wi) * weight / density);
 }
 
-bool DirectLighting::occluded(const LightSampleContext& at, float time,
-                              const LightSample& light) const {
+Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light) {
   Ray ray;
   ray.time = time;
   ray.o = offsetRayOrigin(at.p, at.pError, at.n, light.wi);
@@ -136,7 +132,7 @@ bool DirectLighting::occluded(const LightSampleContext& at, float time,
     ray.d = end - ray.o;
     ray.tMax = kShadowEnd;
   }
-  return scene_.geometry->occluded(ray);
+  return ray;
 }
 
 float DirectLighting::bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,

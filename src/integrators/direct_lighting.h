@@ -3,15 +3,21 @@
 /// sampling (Veach 1997, chapter 9). A component of every integrator.
 #pragma once
 
+#include <algorithm>
+
 #include "base/integrator.h"
 #include "integrators/render_loop.h"
 
 namespace lampyris {
 
 enum class LightStrategy : uint8_t {
-  One,  ///< drawn from a LightDistribution: one light, or one of each cluster if it splits
-  All,  ///< every light, as many samples as it asks for
+  One,       ///< drawn from a LightDistribution: one light, or one of each cluster if it splits
+  All,       ///< every light, as many samples as it asks for
+  EachOnce,  ///< every light by one sample, and by no BSDF samples
 };
+
+/// The ray from a point towards light that arrives there, up to the light's own surface.
+Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light);
 
 /// Both techniques see each other through the expected number of draws times the density, so that a
 /// light is weighed alike from either side however often it is sampled.
@@ -50,6 +56,10 @@ class DirectLighting {
   Rgb outside(const Vec3& d) const;
 
  private:
+  /// How many samples of its own the light gets where all are sampled.
+  int samplesOf(const Light& light) const {
+    return strategy_ == LightStrategy::EachOnce ? 1 : std::max(1, light.samples());
+  }
   /// How often lightSamples() draws the light, on average.
   float expectedDraws(const LightSampleContext& at, LightId light) const;
   /// One light of each cluster of the distribution's cut; valid until the thread's next one.
@@ -60,7 +70,6 @@ class DirectLighting {
                   const Vec2& u, RayCounts& rays) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
                    float lightPdf) const;
-  bool occluded(const LightSampleContext& at, float time, const LightSample& light) const;
 
   const Scene& scene_;
   const LightStrategy strategy_;

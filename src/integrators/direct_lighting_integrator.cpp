@@ -3,10 +3,11 @@
 // "directlighting" in expectation. Branches of specular surfaces wait on a small stack instead of
 // recursing; where there would be too many, one is drawn at random, which keeps the expectation and
 // bounds the time for any depth.
+#include "integrators/direct_lighting_integrator.h"
+
 #include <array>
 
 #include "integrators/aov_surface.h"
-#include "integrators/direct_lighting.h"
 
 namespace lampyris {
 
@@ -21,15 +22,13 @@ constexpr size_t kStackSize = kBranchingDepth * kMaxBranches;
 
 struct DirectLightingParameters {
   std::string strategy = "all";
-  int maxDepth = 5;
-  std::vector<int> pixelBounds;
+  DirectLightingSettings settings;
   std::string lightSampler;
 
   void declare(Declaration& d) {
     d.add("strategy", strategy, "Whether all lights are sampled at a point, or one.")
         .oneOf({"all", "one"});
-    d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
-    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+    settings.declare(d);
     d.add("lightsampler", lightSampler,
           "Strategy \"one\": which light to sample at a point; see kind lightsampler.")
         .alias("lightsamplestrategy")
@@ -192,34 +191,46 @@ Rgb DirectLightingEstimator::radiance(const CameraRay& camera, SampleStream& str
 
 class DirectLightingIntegrator final : public Integrator {
  public:
-  DirectLightingIntegrator(DirectLightingParameters parameters, SourceLocation location,
+  DirectLightingIntegrator(const DirectLightingSettings& settings, LightStrategy strategy,
                            std::unique_ptr<LightDistribution> distribution)
-      : parameters_(std::move(parameters)),
-        location_(location),
-        distribution_(std::move(distribution)) {}
+      : settings_(settings), strategy_(strategy), distribution_(std::move(distribution)) {}
 
   uint64_t render(RenderContext& context) const override {
-    const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
-    const auto strategy = parameters_.strategy == "all" ? LightStrategy::All : LightStrategy::One;
-    const DirectLightingEstimator estimator(context.scene, parameters_.maxDepth, strategy,
+    const PixelBounds pixels =
+        renderedPixels(context.film, settings_.pixelBounds, settings_.location);
+    const DirectLightingEstimator estimator(context.scene, settings_.maxDepth, strategy_,
                                             distribution_.get());
     return renderPasses(context, pixels, estimator);
   }
 
  private:
-  const DirectLightingParameters parameters_;
-  const SourceLocation location_;
+  const DirectLightingSettings settings_;
+  const LightStrategy strategy_;
   const std::unique_ptr<LightDistribution> distribution_;
 };
 
 std::unique_ptr<Integrator> create(const DirectLightingParameters& p,
                                    const IntegratorContext& context) {
+  DirectLightingSettings settings = p.settings;
+  settings.location = context.location;
   // Sampling all lights needs no tree.
-  auto distribution = p.strategy == "one" ? context.lightDistribution(p.lightSampler) : nullptr;
-  return std::make_unique<DirectLightingIntegrator>(p, context.location, std::move(distribution));
+  if (p.strategy == "all") return makeDirectLightingIntegrator(settings, LightStrategy::All, {});
+  return makeDirectLightingIntegrator(settings, LightStrategy::One,
+                                      context.lightDistribution(p.lightSampler));
 }
 
 }  // namespace
+
+void DirectLightingSettings::declare(Declaration& d) {
+  d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
+  d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+}
+
+std::unique_ptr<Integrator> makeDirectLightingIntegrator(
+    const DirectLightingSettings& settings, LightStrategy strategy,
+    std::unique_ptr<LightDistribution> distribution) {
+  return std::make_unique<DirectLightingIntegrator>(settings, strategy, std::move(distribution));
+}
 
 IntegratorRegistry::Entry directLightingPlugin() {
   return makePlugin("directlighting",

@@ -2,6 +2,8 @@
 #include "integrators/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_INTEGRATORS(PLUGIN) PLUGIN(path) PLUGIN(pathTree) PLUGIN(directLighting)
+#define LAMPYRIS_INTEGRATORS(PLUGIN) \
+  PLUGIN(path)                       \
+  PLUGIN(pathTree) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)
