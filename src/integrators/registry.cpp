@@ -4,6 +4,6 @@
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_INTEGRATORS(PLUGIN) \
   PLUGIN(path)                       \
-  PLUGIN(pathTree) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion)
+  PLUGIN(pathTree) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion) PLUGIN(bdpt)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)
