@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/ray.h"
 #include "base/texture.h"
 #include "core/registry.h"
@@ -19,10 +21,32 @@ struct CameraRay {
   float weight = 1;  ///< 0: the lens lets nothing through
 };
 
+/// How a point of the scene shows on the film, through one point of the lens.
+struct CameraView {
+  Vec3 lens{0};  ///< world space
+  Vec2 film{0};  ///< in pixels, may lie beyond the image
+  /// How many pixels of the film a unit of solid angle takes up, seen from the lens point: the
+  /// density of directions of camera rays if one starts in each pixel. Light with intensity I from
+  /// there adds I × this / distance² to the pixel (the importance of Veach 1997, §8.3).
+  float pixelsPerSteradian = 0;
+};
+
 class Camera {
  public:
   virtual ~Camera() = default;
   virtual CameraRay generate(const CameraSample& sample) const = 0;
+
+  /// True if project() works: paths from lights can be led to the camera.
+  virtual bool projects() const { return false; }
+  /// Where the point `p` shows through the lens point drawn with `lens`, in [0, 1)², at the time
+  /// `time` (as in Ray). None if it does not: behind the camera.
+  virtual std::optional<CameraView> project(const Vec3& p, const Vec2& lens, float time) const {
+    return (void)p, (void)lens, (void)time, std::nullopt;
+  }
+  /// CameraView::pixelsPerSteradian about the direction `d` (unit) of a camera ray.
+  virtual float pixelsPerSteradian(const Vec3& d, float time) const {
+    return (void)d, (void)time, 0.f;
+  }
 };
 
 struct CameraContext : BuildContext {

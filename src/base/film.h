@@ -34,6 +34,20 @@ class Film {
   virtual AovSet aovs() const { return {}; }
   /// Adds what the sample just added tells for them.
   virtual void addAovs(const Int2& pixel, const AovRecord& record) { (void)pixel, (void)record; }
+
+  /// Opens the light image: a part of every pixel made by paths that choose their place on the film
+  /// themselves. Its sums are in 64-bit fixed point, so that no order of additions changes a bit:
+  /// steps of 2⁻²⁶ × `typical`, which is about the mean value of a splat (> 0, finite) and the same
+  /// whenever the image is rendered. Goes on with what restore() has brought.
+  virtual void openLightImage(double typical) = 0;
+  /// Adds `value` about a place on the film (in pixels, may lie beyond the image), spread by the
+  /// filter. From any thread. False, and nothing is added, if it is not finite or negative.
+  virtual bool addSplat(const Vec2& film, const Rgb& value) = 0;
+  /// Counts paths whose splats are in the light image: a pixel's sum of splats is divided by their
+  /// number in relation to the number of pixels in bounds(), so that a splat's value is what a
+  /// sample of the pixel would have.
+  virtual void addLightPaths(uint64_t count) = 0;
+
   virtual uint64_t sampleCount(const Int2& pixel) const = 0;
   /// Mean so far, scaled, negative values clipped.
   virtual Rgb pixel(const Int2& pixel) const = 0;

@@ -26,6 +26,21 @@ struct LightSample {
   Vec3 p{0}, pError{0}, n{0};  ///< where it comes from, if finite; n = 0: no surface there
 };
 
+/// A ray of light as it leaves a light: where paths from lights begin.
+struct EmissionSample {
+  /// Where it starts; `n` = 0: no surface there. Lights at infinity: on a disk across `w` outside
+  /// of the scene.
+  Vec3 p{0}, pError{0}, n{0};
+  Vec3 w{0, 0, 1};  ///< unit, away from the light
+  Rgb radiance;     ///< lights at a point: the intensity; of one direction: the irradiance across w
+  float pdfPosition = 0;   ///< by area (of the surface, of the disk); 1 for lights at a point
+  float pdfDirection = 0;  ///< by solid angle; 1 for lights of one direction
+};
+/// The densities with which Light::sampleEmission() draws a ray.
+struct EmissionPdf {
+  float position = 0, direction = 0;
+};
+
 /// What a light tree knows of a light with a position. Angles as in Conty and Kulla 2018: normals
 /// lie within θo of the axis, emission within θe of a normal.
 struct LightBounds {
@@ -71,6 +86,19 @@ class Light {
   }
   /// Radiance along a ray that leaves the scene in direction `d`.
   virtual Rgb escaped(const Vec3& d) const { return (void)d, Rgb(); }
+
+  /// Draws a ray that leaves the light: its place by `u`, its direction by `v`. None if nothing is
+  /// emitted there; by default never: paths from lights do without this one.
+  virtual std::optional<EmissionSample> sampleEmission(uint32_t element, const Vec2& u,
+                                                       const Vec2& v) const {
+    return (void)element, (void)u, (void)v, std::nullopt;
+  }
+  /// Densities with which sampleEmission() draws a ray along `w` (unit, away from the light) that
+  /// starts where the normal is `n` (not read where there is no surface). Lights of one point or
+  /// one direction: 1 in its place, and `w` must be a direction that they emit in.
+  virtual EmissionPdf emissionPdf(uint32_t element, const Vec3& n, const Vec3& w) const {
+    return (void)element, (void)n, (void)w, EmissionPdf{};
+  }
 
   /// Emitted power in watts; exact for constant emission, else an estimate; black only if nothing
   /// is ever emitted.

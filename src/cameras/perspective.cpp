@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <glm/matrix.hpp>
+
 #include "cameras/projective.h"
 
 namespace lampyris {
@@ -29,6 +31,34 @@ class PerspectiveCamera final : public ProjectiveCamera {
     const auto tangent = static_cast<float>(std::tan(degrees * (3.14159265358979323846 / 360)));
     screen_.origin *= tangent;
     screen_.step *= tangent;
+    determinant_ = std::abs(glm::determinant(glm::dmat3(cameraToWorld().inverseMatrix())));
+  }
+
+  bool projects() const override { return true; }
+  std::optional<CameraView> project(const Vec3& p, const Vec2& lens, float time) const override {
+    CameraView view;
+    const Vec3 local = cameraToWorld().inverse().affinePoint(p);
+    const Vec3 start = hasLens() ? lensPoint(lens) : Vec3(0);
+    const Vec3 d = local - start;
+    if (!(d.z > 0)) return std::nullopt;
+    // Where the ray passes the plane z = 1 of a pinhole that looks at the same point in focus.
+    const float ahead = hasLens() ? focalDistance_ : 1.f;
+    view.film = screen_.film(Vec2(start + d * (ahead / d.z)) / ahead);
+    view.lens = cameraToWorld().affinePoint(start);
+    view.pixelsPerSteradian = pixelsPerSteradian(normalize(p - view.lens), time);
+    if (!(view.pixelsPerSteradian > 0) || !isFinite(Vec3(view.film, 0))) return std::nullopt;
+    return view;
+  }
+  float pixelsPerSteradian(const Vec3& d, float) const override {
+    // dA = dω / cos³ on the plane z = 1; a transform A that is no rotation changes solid angles,
+    // dω = |det A| / |A d|³ dω'. Together the length of A d drops out.
+    const Vec3 local = cameraToWorld().inverse().vector(d);
+    if (!(local.z > 0)) return 0;
+    const double z = static_cast<double>(local.z);
+    const double pixel =
+        std::abs(static_cast<double>(screen_.step.x) * static_cast<double>(screen_.step.y));
+    const auto density = static_cast<float>(determinant_ / (z * z * z * pixel));
+    return std::isfinite(density) ? density : 0.f;
   }
 
  protected:
@@ -42,6 +72,9 @@ class PerspectiveCamera final : public ProjectiveCamera {
     return {lens, focalDistance_ * d - lens,         lens, focalDistance_ * (d + right) - lens,
             lens, focalDistance_ * (d + down) - lens};
   }
+
+ private:
+  double determinant_ = 1;  ///< of worldToCamera's linear part, absolute
 };
 
 std::unique_ptr<Camera> create(const PerspectiveParameters& p, const CameraContext& context) {

@@ -32,6 +32,7 @@ struct ProjectiveParameters : ShutterParameters {
 struct Screen {
   Vec2 origin{0}, step{0};
   Vec2 at(const Vec2& film) const { return origin + film * step; }
+  Vec2 film(const Vec2& at) const { return (at - origin) / step; }
 };
 /// The window defaults to [−1, 1] along the image's shorter side. Throws SceneError if it is empty.
 Screen makeScreen(const ProjectiveParameters& p, const CameraContext& context);
@@ -58,6 +59,7 @@ class ProjectiveCamera : public Camera {
   bool hasLens() const { return lensRadius_ > 0; }
   /// A point of the lens.
   Vec3 lensPoint(const Vec2& u) const;
+  const Transform& cameraToWorld() const { return cameraToWorld_; }
 
   Screen screen_;
   float focalDistance_;

@@ -14,6 +14,7 @@
 #include "core/image.h"
 #include "core/math.h"
 #include "film/aov_sums.h"
+#include "film/light_image.h"
 #include "film/pixel_sums.h"
 
 namespace lampyris {
@@ -79,7 +80,8 @@ class ImageFilm final : public Film {
         scale_(static_cast<double>(p.scale)),
         maxLuminance_(p.maxSampleLuminance),
         pixels_(static_cast<size_t>(bounds.area())),
-        aovs_(aovs, pixels_.size()) {}
+        aovs_(aovs, pixels_.size()),
+        lightImage_(bounds, *filter_) {}
 
   Int2 resolution() const override { return resolution_; }
   PixelBounds bounds() const override { return bounds_; }
@@ -92,8 +94,7 @@ class ImageFilm final : public Film {
     store(sums.count, sums.count + 1);
     if (!isValid(radiance)) return false;
     const auto y = static_cast<double>(radiance.luminance());
-    double factor = static_cast<double>(weight);
-    if (y > static_cast<double>(maxLuminance_)) factor *= static_cast<double>(maxLuminance_) / y;
+    const double factor = static_cast<double>(weight) * darkening(y);
     const std::array<double, 3> rgb{factor * static_cast<double>(radiance.r),
                                     factor * static_cast<double>(radiance.g),
                                     factor * static_cast<double>(radiance.b)};
@@ -110,17 +111,28 @@ class ImageFilm final : public Film {
     aovs_.add(index(pixel), record);
   }
 
+  void openLightImage(double typical) override { lightImage_.open(typical); }
+  bool addSplat(const Vec2& film, const Rgb& value) override {
+    if (!isValid(value)) return false;
+    const double factor = darkening(static_cast<double>(value.luminance()));
+    lightImage_.add(film, value * static_cast<float>(factor));
+    return true;
+  }
+  void addLightPaths(uint64_t count) override { lightImage_.addPaths(count); }
+
   uint64_t sampleCount(const Int2& pixel) const override {
     return load(pixels_[index(pixel)].count);
   }
 
   Rgb pixel(const Int2& pixel) const override {
-    const PixelSums& sums = pixels_[index(pixel)];
+    const size_t i = index(pixel);
+    const PixelSums& sums = pixels_[i];
     const uint64_t count = load(sums.count);
-    if (count == 0) return Rgb();
-    const double factor = scale_ / static_cast<double>(count);
-    return {toFloat(load(sums.r) * factor), toFloat(load(sums.g) * factor),
-            toFloat(load(sums.b) * factor)};
+    const double factor = count > 0 ? 1 / static_cast<double>(count) : 0;
+    const auto light = lightImage_.mean(i);
+    return {toFloat((load(sums.r) * factor + light[0]) * scale_),
+            toFloat((load(sums.g) * factor + light[1]) * scale_),
+            toFloat((load(sums.b) * factor + light[2]) * scale_)};
   }
 
   double noise() const override;
@@ -138,13 +150,17 @@ class ImageFilm final : public Film {
   }
 
   std::string save() const override {
-    return encodeSums({bounds_, aovs_.set()}, pixels_, aovs_.values());
+    std::string bytes = encodeSums({bounds_, aovs_.set()}, pixels_, aovs_.values());
+    if (lightImage_.isOpen()) bytes += lightImage_.encode();
+    return bytes;
   }
-  bool restore(const std::string& bytes) override {
-    return decodeSums(bytes, {bounds_, aovs_.set()}, pixels_, aovs_.values());
-  }
+  bool restore(const std::string& bytes) override;
 
  private:
+  /// The factor for a sample of luminance `y`.
+  double darkening(double y) const {
+    return y > static_cast<double>(maxLuminance_) ? static_cast<double>(maxLuminance_) / y : 1;
+  }
   size_t index(const Int2& p) const {
     assert(bounds_.contains(p));
     const Int2 local = p - bounds_.min;
@@ -160,20 +176,35 @@ class ImageFilm final : public Film {
   float maxLuminance_;
   std::vector<PixelSums> pixels_;
   AovSums aovs_;
+  LightImage lightImage_;
 };
 
+bool ImageFilm::restore(const std::string& bytes) {
+  const SumsKey key{bounds_, aovs_.set()};
+  if (decodeSums(bytes, key, pixels_, aovs_.values())) return true;
+  const size_t tail = lightImage_.encodedSize();
+  if (bytes.size() < tail) return false;
+  const std::string_view all = bytes, light = all.substr(bytes.size() - tail);
+  return LightImage::isIntact(light) &&
+         decodeSums(all.substr(0, bytes.size() - tail), key, pixels_, aovs_.values()) &&
+         lightImage_.decode(light);
+}
+
+/// Of the samples alone: splats, which come from anywhere, keep no squares, but count for the mean.
 /// Infinite as long as no pixel has two samples: nothing is known then, and nobody should stop.
 double ImageFilm::noise() const {
   double meanSum = 0, errorSum = 0;
   uint64_t pixels = 0;
-  for (const PixelSums& sums : pixels_) {
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    const PixelSums& sums = pixels_[i];
     const uint64_t count = load(sums.count);
     if (count < 2) continue;
     const auto n = static_cast<double>(count);
     const double mean =
         (0.212671 * load(sums.r) + 0.715160 * load(sums.g) + 0.072169 * load(sums.b)) / n;
     errorSum += std::max(0., load(sums.luminanceSquares) / n - mean * mean) / (n - 1);
-    meanSum += mean;
+    const auto light = lightImage_.mean(i);
+    meanSum += mean + 0.212671 * light[0] + 0.715160 * light[1] + 0.072169 * light[2];
     ++pixels;
   }
   if (pixels == 0) return std::numeric_limits<double>::infinity();

@@ -30,7 +30,8 @@ Header headerOf(const SumsKey& key) {
   return h;
 }
 
-/// Depends on every bit and on the order; `bytes` is a multiple of 8 long.
+}  // namespace
+
 uint64_t checksum(const char* bytes, size_t size) {
   uint64_t h = size;
   for (size_t i = 0; i < size; i += sizeof(uint64_t)) {
@@ -40,8 +41,6 @@ uint64_t checksum(const char* bytes, size_t size) {
   }
   return h;
 }
-
-}  // namespace
 
 std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
                        std::span<const double> aovSums) {

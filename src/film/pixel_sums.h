@@ -26,6 +26,8 @@ struct SumsKey {
   AovSet aovs;
 };
 
+/// Depends on every bit and on the order; `size` is a multiple of 8.
+uint64_t checksum(const char* bytes, size_t size);
 /// Header (magic, version, key), sums, those of the AOVs, checksum; little-endian.
 std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
                        std::span<const double> aovSums);

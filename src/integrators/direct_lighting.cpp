@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/direct_lighting.h"
 
-#include <algorithm>
-
 #include "core/sampling.h"
 #include "integrators/light_connection.h"
 
@@ -14,8 +12,6 @@ namespace {
 /// mean squared error was 8 % lower with an environment light and glossy surfaces; in Veach's MIS
 /// scene and in rooms with one emitter the difference was below what such a comparison can tell.
 float misWeight(float density, float other) { return balanceHeuristic(density, other); }
-
-int samplesOf(const Light& light) { return std::max(1, light.samples()); }
 
 }  // namespace
 
@@ -35,12 +31,13 @@ DirectLighting::DirectLighting(const Scene& scene, LightStrategy strategy,
   for (size_t i = 0; i < table.objectCount(); ++i) {
     const int n = samplesOf(table.object(i));
     lightDimensions_ += 2 * static_cast<uint32_t>(n) * table.object(i).elementCount();
-    if (!table.object(i).isDelta()) bsdfDraws_ = std::max(bsdfDraws_, n);
+    if (strategy == LightStrategy::All && !table.object(i).isDelta())
+      bsdfDraws_ = std::max(bsdfDraws_, n);
   }
 }
 
 float DirectLighting::expectedDraws(const LightSampleContext& at, LightId light) const {
-  if (strategy_ == LightStrategy::All)
+  if (strategy_ != LightStrategy::One)
     return static_cast<float>(samplesOf(*scene_.lightTable[light].light));
   if (!distribution_) return 0;
   return splits_ ? distribution_->expectedCount(at, light) : distribution_->pmf(at, light);

@@ -3,14 +3,17 @@
 /// sampling (Veach 1997, chapter 9). A component of every integrator.
 #pragma once
 
+#include <algorithm>
+
 #include "base/integrator.h"
 #include "integrators/render_loop.h"
 
 namespace lampyris {
 
 enum class LightStrategy : uint8_t {
-  One,  ///< drawn from a LightDistribution: one light, or one of each cluster if it splits
-  All,  ///< every light, as many samples as it asks for
+  One,       ///< drawn from a LightDistribution: one light, or one of each cluster if it splits
+  All,       ///< every light, as many samples as it asks for
+  EachOnce,  ///< every light by one sample, and by no BSDF samples
 };
 
 /// Light drawn for a point, before anything is known of what scatters it there.
@@ -66,6 +69,10 @@ class DirectLighting {
   Rgb outside(const Vec3& d) const;
 
  private:
+  /// How many samples of its own the light gets where all are sampled.
+  int samplesOf(const Light& light) const {
+    return strategy_ == LightStrategy::EachOnce ? 1 : std::max(1, light.samples());
+  }
   /// How often lightSamples() draws the light, on average.
   float expectedDraws(const LightSampleContext& at, LightId light) const;
   /// One light of each cluster of the distribution's cut; valid until the thread's next one.

@@ -3,11 +3,12 @@
 // "directlighting" in expectation. Branches of specular surfaces wait on a small stack instead of
 // recursing; where there would be too many, one is drawn at random, which keeps the expectation and
 // bounds the time for any depth.
+#include "integrators/direct_lighting_integrator.h"
+
 #include <array>
 
 #include "integrators/adaptive_direct.h"
 #include "integrators/aov_surface.h"
-#include "integrators/direct_lighting.h"
 
 namespace lampyris {
 
@@ -22,8 +23,7 @@ constexpr size_t kStackSize = kBranchingDepth * kMaxBranches;
 
 struct DirectLightingParameters {
   std::string strategy = "all";
-  int maxDepth = 5;
-  std::vector<int> pixelBounds;
+  DirectLightingSettings settings;
   std::string lightSampler;
   AdaptiveSettings adaptive;
 
@@ -32,8 +32,7 @@ struct DirectLightingParameters {
           "Whether all lights are sampled at a point, or one, or as many as the lights and the "
           "BSDF there are worth.")
         .oneOf({"all", "one", "adaptive"});
-    d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
-    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+    settings.declare(d);
     d.add("lightsampler", lightSampler,
           "Strategy \"one\": which light to sample at a point; see kind lightsampler. Strategy "
           "\"adaptive\" takes \"brdf\" alone.")
@@ -207,39 +206,56 @@ Rgb DirectLightingEstimator::radiance(const CameraRay& camera, SampleStream& str
 
 class DirectLightingIntegrator final : public Integrator {
  public:
-  DirectLightingIntegrator(DirectLightingParameters parameters, SourceLocation location,
-                           std::unique_ptr<LightDistribution> distribution)
-      : parameters_(std::move(parameters)),
-        location_(location),
-        distribution_(std::move(distribution)) {}
+  DirectLightingIntegrator(const DirectLightingSettings& settings, LightStrategy strategy,
+                           std::unique_ptr<LightDistribution> distribution,
+                           std::optional<AdaptiveSettings> adaptive = {})
+      : settings_(settings),
+        strategy_(strategy),
+        distribution_(std::move(distribution)),
+        adaptive_(adaptive) {}
 
   uint64_t render(RenderContext& context) const override {
-    const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
-    const auto strategy = parameters_.strategy == "all" ? LightStrategy::All : LightStrategy::One;
+    const PixelBounds pixels =
+        renderedPixels(context.film, settings_.pixelBounds, settings_.location);
     std::optional<AdaptiveDirect> adaptive;
-    if (parameters_.strategy == "adaptive")
-      adaptive.emplace(context.scene, parameters_.adaptive, *distribution_);
-    const DirectLightingEstimator estimator(context.scene, parameters_.maxDepth, strategy,
+    if (adaptive_) adaptive.emplace(context.scene, *adaptive_, *distribution_);
+    const DirectLightingEstimator estimator(context.scene, settings_.maxDepth, strategy_,
                                             distribution_.get(), adaptive ? &*adaptive : nullptr);
     return renderPasses(context, pixels, estimator);
   }
 
  private:
-  const DirectLightingParameters parameters_;
-  const SourceLocation location_;
+  const DirectLightingSettings settings_;
+  const LightStrategy strategy_;
   const std::unique_ptr<LightDistribution> distribution_;
+  const std::optional<AdaptiveSettings> adaptive_;
 };
 
 std::unique_ptr<Integrator> create(const DirectLightingParameters& p,
                                    const IntegratorContext& context) {
+  DirectLightingSettings settings = p.settings;
+  settings.location = context.location;
   // Sampling all lights needs no tree.
-  std::unique_ptr<LightDistribution> distribution;
-  if (p.strategy == "one") distribution = context.lightDistribution(p.lightSampler);
-  if (p.strategy == "adaptive") distribution = makeAdaptiveLights(context, p.lightSampler);
-  return std::make_unique<DirectLightingIntegrator>(p, context.location, std::move(distribution));
+  if (p.strategy == "all") return makeDirectLightingIntegrator(settings, LightStrategy::All, {});
+  if (p.strategy == "adaptive")
+    return std::make_unique<DirectLightingIntegrator>(
+        settings, LightStrategy::One, makeAdaptiveLights(context, p.lightSampler), p.adaptive);
+  return makeDirectLightingIntegrator(settings, LightStrategy::One,
+                                      context.lightDistribution(p.lightSampler));
 }
 
 }  // namespace
+
+void DirectLightingSettings::declare(Declaration& d) {
+  d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
+  d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+}
+
+std::unique_ptr<Integrator> makeDirectLightingIntegrator(
+    const DirectLightingSettings& settings, LightStrategy strategy,
+    std::unique_ptr<LightDistribution> distribution) {
+  return std::make_unique<DirectLightingIntegrator>(settings, strategy, std::move(distribution));
+}
 
 IntegratorRegistry::Entry directLightingPlugin() {
   return makePlugin("directlighting",

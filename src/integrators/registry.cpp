@@ -2,7 +2,9 @@
 #include "integrators/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_INTEGRATORS(PLUGIN) \
-  PLUGIN(path) PLUGIN(pathTree) PLUGIN(volpath) PLUGIN(guidedPath) PLUGIN(directLighting)
+#define LAMPYRIS_INTEGRATORS(PLUGIN)                                                         \
+  PLUGIN(path)                                                                               \
+  PLUGIN(pathTree) PLUGIN(volpath) PLUGIN(guidedPath) PLUGIN(directLighting) PLUGIN(whitted) \
+      PLUGIN(ambientOcclusion) PLUGIN(bdpt)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "base/light.h"
+#include "core/frame.h"
+#include "core/sampling.h"
 #include "lights/emission.h"
 #include "lights/surface_emission.h"
 
@@ -76,6 +78,30 @@ class DiffuseAreaLight final : public Light {
     return varying_ ? varying_->at(at) : radiance_;
   }
 
+  std::optional<EmissionSample> sampleEmission(uint32_t element, const Vec2& u,
+                                               const Vec2& v) const override {
+    const auto point = shape_.sampleArea(element, u);
+    if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return std::nullopt;
+    EmissionSample s;
+    s.radiance = varying_ ? varying_->at(element, point->p, point->n) : radiance_;
+    // Two sides share the numbers of the first variate.
+    const bool back = twoSided_ && v.x >= 0.5f;
+    const Vec2 shared(std::min(2 * v.x - (back ? 1.f : 0.f), kOneMinusEpsilon), v.y);
+    const Vec3 local = sampleCosineHemisphere(twoSided_ ? shared : v);
+    if (s.radiance.isBlack() || !(local.z > 0)) return std::nullopt;
+    s.p = point->p;
+    s.pError = point->pError;
+    s.n = point->n;
+    s.w = Frame::fromZ(back ? -point->n : point->n).toWorld(local);
+    s.pdfPosition = point->pdf;
+    s.pdfDirection = pdfDirection(s.n, s.w);
+    if (!(s.pdfDirection > 0)) return std::nullopt;
+    return s;
+  }
+  EmissionPdf emissionPdf(uint32_t element, const Vec3& n, const Vec3& w) const override {
+    return {shape_.pdfArea(element, n), pdfDirection(n, w)};
+  }
+
   Rgb power(uint32_t element) const override {
     return meanRadiance(element) * (kPi * shape_.area(element) * (twoSided_ ? 2.f : 1.f));
   }
@@ -95,6 +121,10 @@ class DiffuseAreaLight final : public Light {
 
  private:
   bool emitsTowards(const Vec3& n, const Vec3& w) const { return twoSided_ || dot(n, w) > 0; }
+  float pdfDirection(const Vec3& n, const Vec3& w) const {
+    const float cosine = dot(n, w);
+    return cosineHemispherePdf(twoSided_ ? std::abs(cosine) / 2 : std::max(cosine, 0.f));
+  }
   /// Grey where it varies.
   Rgb meanRadiance(uint32_t element) const {
     return varying_ ? Rgb(varying_->meanLuminance(element)) : radiance_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
+#include "lights/distant_disk.h"
 #include "lights/emission.h"
 
 namespace lampyris {
@@ -23,10 +24,7 @@ class DistantLight final : public Light {
 
   bool isDelta() const override { return true; }
   bool isInfinite() const override { return true; }
-  void prepare(const Bounds3& scene) override {
-    const float radius = 0.5f * scene.diagonal();
-    if (radius > 0 && std::isfinite(radius)) sceneRadius_ = radius;
-  }
+  void prepare(const Bounds3& scene) override { disk_.cover(scene); }
 
   std::optional<LightSample> sample(uint32_t, const Vec3&, const Vec2&) const override {
     if (irradiance_.isBlack()) return std::nullopt;
@@ -37,7 +35,19 @@ class DistantLight final : public Light {
     return s;
   }
 
-  Rgb power(uint32_t) const override { return irradiance_ * (kPi * sqr(sceneRadius_)); }
+  std::optional<EmissionSample> sampleEmission(uint32_t, const Vec2& u,
+                                               const Vec2&) const override {
+    if (irradiance_.isBlack()) return std::nullopt;
+    EmissionSample s = disk_.start(u, -w_);
+    s.radiance = irradiance_;
+    s.pdfDirection = 1;
+    return s;
+  }
+  EmissionPdf emissionPdf(uint32_t, const Vec3&, const Vec3&) const override {
+    return {disk_.pdfPosition(), 1};
+  }
+
+  Rgb power(uint32_t) const override { return irradiance_ * (kPi * sqr(disk_.radius())); }
   std::optional<LightBounds> bounds(uint32_t) const override { return std::nullopt; }
   float irradianceEstimate(const Vec3& n, bool transmits) const override {
     const float cosine = dot(n, w_);
@@ -47,7 +57,7 @@ class DistantLight final : public Light {
  private:
   Vec3 w_;
   Rgb irradiance_;
-  float sceneRadius_ = 1;
+  DistantDisk disk_;
 };
 
 std::unique_ptr<Light> create(const DistantLightParameters& p, const LightContext& context) {

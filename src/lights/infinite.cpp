@@ -3,6 +3,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/light.h"
+#include "lights/distant_disk.h"
 #include "lights/emission.h"
 #include "lights/environment_map.h"
 
@@ -30,20 +31,30 @@ class InfiniteLight : public Light {
 
   bool isDelta() const override { return false; }
   bool isInfinite() const override { return true; }
-  void prepare(const Bounds3& scene) override {
-    const float radius = 0.5f * scene.diagonal();
-    if (radius > 0 && std::isfinite(radius)) sceneRadius_ = radius;
+  void prepare(const Bounds3& scene) override { disk_.cover(scene); }
+  std::optional<EmissionSample> sampleEmission(uint32_t element, const Vec2& u,
+                                               const Vec2& v) const override {
+    // The direction does not depend on the place.
+    const auto from = sample(element, Vec3(0), v);
+    if (!from) return std::nullopt;
+    EmissionSample s = disk_.start(u, -from->wi);
+    s.radiance = from->radiance;
+    s.pdfDirection = from->pdf;
+    return s;
+  }
+  EmissionPdf emissionPdf(uint32_t, const Vec3&, const Vec3& w) const override {
+    return {disk_.pdfPosition(), pdfEscape(-w)};
   }
   std::optional<LightBounds> bounds(uint32_t) const override { return std::nullopt; }
   int samples() const override { return samples_; }
 
  protected:
   /// pbrt-v3's figure for mean radiance `mean`.
-  Rgb powerOf(const Rgb& mean) const { return mean * (kPi * sqr(sceneRadius_)); }
+  Rgb powerOf(const Rgb& mean) const { return mean * (kPi * sqr(disk_.radius())); }
 
  private:
   int samples_;
-  float sceneRadius_ = 1;
+  DistantDisk disk_;
 };
 
 class ConstantInfiniteLight final : public InfiniteLight {

@@ -34,6 +34,17 @@ std::optional<LightSample> PatternLight::sample(uint32_t, const Vec3& from, cons
   });
 }
 
+std::optional<EmissionSample> PatternLight::sampleEmission(uint32_t, const Vec2&,
+                                                           const Vec2& v) const {
+  return emission_.emit(p_, v, [this](const Vec3& w) {
+    return intensity_ * pattern(normalize(worldToLight_.vector(w)));
+  });
+}
+
+EmissionPdf PatternLight::emissionPdf(uint32_t, const Vec3&, const Vec3& w) const {
+  return {1, emission_.pdf(w)};
+}
+
 double PatternLight::stretch(const Vec3& w) const {
   // In double: the squares of very small or large scales are beyond float.
   const double ratio =

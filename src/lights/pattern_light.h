@@ -7,6 +7,7 @@
 
 #include "base/light.h"
 #include "core/transform.h"
+#include "lights/cone_emission.h"
 #include "lights/emission_image.h"
 
 namespace lampyris {
@@ -27,6 +28,9 @@ class PatternLight : public Light {
 
   bool isDelta() const final { return true; }
   std::optional<LightSample> sample(uint32_t element, const Vec3& from, const Vec2& u) const final;
+  std::optional<EmissionSample> sampleEmission(uint32_t element, const Vec2& u,
+                                               const Vec2& v) const final;
+  EmissionPdf emissionPdf(uint32_t element, const Vec3& n, const Vec3& w) const final;
 
  protected:
   /// The factor on the intensity; `w` is unit, away from the light, in the light's space.
@@ -39,6 +43,8 @@ class PatternLight : public Light {
   double stretch(const Vec3& w) const;
   /// At the light's place, with the intensity I × `meanPattern`; emission in all directions.
   LightBounds boundsOf(const Rgb& meanPattern) const;
+  /// A cone that holds all directions in which the pattern is not black; by default all.
+  void emitWithin(const ConeEmission& cone) { emission_ = cone; }
   const Rgb& intensity() const { return intensity_; }
   const EmissionImage* image() const { return image_.get(); }  ///< null: none is named
 
@@ -47,6 +53,7 @@ class PatternLight : public Light {
   Vec3 p_;
   Rgb intensity_;
   std::shared_ptr<const EmissionImage> image_;
+  ConeEmission emission_;
 };
 
 }  // namespace lampyris

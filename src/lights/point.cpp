@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
+#include "lights/cone_emission.h"
 #include "lights/emission.h"
 #include "lights/point_sample.h"
 
@@ -24,6 +25,14 @@ class PointLight final : public Light {
 
   std::optional<LightSample> sample(uint32_t, const Vec3& from, const Vec2&) const override {
     return samplePoint(p_, from, [this](const Vec3&) { return intensity_; });
+  }
+
+  std::optional<EmissionSample> sampleEmission(uint32_t, const Vec2&,
+                                               const Vec2& v) const override {
+    return ConeEmission().emit(p_, v, [this](const Vec3&) { return intensity_; });
+  }
+  EmissionPdf emissionPdf(uint32_t, const Vec3&, const Vec3& w) const override {
+    return {1, ConeEmission().pdf(w)};
   }
 
   Rgb power(uint32_t) const override { return 4 * kPi * intensity_; }

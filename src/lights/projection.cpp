@@ -76,6 +76,9 @@ class ProjectionLight final : public PatternLight {
     for (const Vec3& e : edges) cosTheta_ = std::min(cosTheta_, dot(axis_, e));
     cosTheta_ -= 1e-6f;  // rounding
     hasCone_ = cosTheta_ > 0;
+    float chord2 = 0;  // of the widest edge: 1 − cos without cancellation
+    for (const Vec3& e : edges) chord2 = std::max(chord2, lengthSquared(e - axis_));
+    if (hasCone_) emitWithin(ConeEmission(axis_, 0.5f * chord2));
   }
 
   Vec2 half_;           ///< half the image's sides at z = 1

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
+#include "lights/cone_emission.h"
 #include "lights/emission.h"
 #include "lights/point_sample.h"
 
@@ -38,12 +39,22 @@ class SpotLight final : public Light {
     cone_.axis = normalize(lightToWorld.vector(axis_));
     cone_.cosThetaO = std::cos(start);
     cone_.cosThetaE = std::cos(total - start);
+    // 1 − cos without cancellation.
+    if (total > 0) emission_ = ConeEmission(cone_.axis, 2 * sqr(std::sin(total / 2)));
   }
 
   bool isDelta() const override { return true; }
 
   std::optional<LightSample> sample(uint32_t, const Vec3& from, const Vec2&) const override {
     return samplePoint(p_, from, [this](const Vec3& w) { return intensity_ * falloff(w); });
+  }
+
+  std::optional<EmissionSample> sampleEmission(uint32_t, const Vec2&,
+                                               const Vec2& v) const override {
+    return emission_.emit(p_, v, [this](const Vec3& w) { return intensity_ * falloff(w); });
+  }
+  EmissionPdf emissionPdf(uint32_t, const Vec3&, const Vec3& w) const override {
+    return {1, emission_.pdf(w)};
   }
 
   Rgb power(uint32_t) const override {
@@ -71,6 +82,7 @@ class SpotLight final : public Light {
   Rgb intensity_;
   float cosTotal_, cosStart_;
   LightBounds cone_;
+  ConeEmission emission_;
 };
 
 std::unique_ptr<Light> create(const SpotLightParameters& p, const LightContext& context) {

@@ -18,9 +18,7 @@ struct KindNames {
 };
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
-      {"integrator",
-       "integrator",
-       {"whitted", "ambientocclusion", "bdpt", "sppm", "mlt"}},
+      {"integrator", "integrator", {"sppm", "mlt"}},
   };
   return all;
 }

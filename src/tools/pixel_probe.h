@@ -20,6 +20,10 @@ class PixelProbe final : public Film {
   const Filter& filter() const override { return film_.filter(); }
   const std::string& filename() const override { return film_.filename(); }
   bool addSample(const Int2& pixel, const Rgb& radiance, float weight) override;
+  /// Splats come from the paths of all pixels: those of one pixel alone tell nothing of it.
+  void openLightImage(double) override {}
+  bool addSplat(const Vec2&, const Rgb&) override { return true; }
+  void addLightPaths(uint64_t) override {}
   uint64_t sampleCount(const Int2& pixel) const override { return film_.sampleCount(pixel); }
   Rgb pixel(const Int2& pixel) const override { return film_.pixel(pixel); }
   double noise() const override { return film_.noise(); }

@@ -35,7 +35,8 @@ std::string rendered(int threads, const std::string& integrator) {
 }
 
 TEST(RenderLoop, ThreadsDoNotChangeABit) {
-  for (const char* integrator : {"\"path\"", "\"directlighting\""})
+  for (const char* integrator : {"\"path\"", "\"directlighting\"", "\"whitted\"",
+                                 "\"ambientocclusion\" \"integer nsamples\" 5", "\"bdpt\""})
     EXPECT_EQ(rendered(1, integrator), rendered(4, integrator));
 }
 
