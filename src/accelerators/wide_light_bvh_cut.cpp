@@ -72,7 +72,9 @@ Shares::Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable) 
     const auto w = static_cast<double>(weights.of[i]);
     if (!(w > 0) || (strong >> i & 1)) continue;
     const double place = (before + 0.5 * w) / restWeight * restGroups;
-    const int mine = rest <= restGroups ? last + 1 : std::max(last, static_cast<int>(place));
+    // Rounding may put a weight of nearly nothing behind the last place.
+    const int nth = std::min(static_cast<int>(place), static_cast<int>(restGroups) - 1);
+    const int mine = rest <= restGroups ? last + 1 : std::max(last, nth);
     if (mine != last) budget[groups] = 1, weight[groups++] = 0;
     last = mine;
     group[i] = static_cast<uint8_t>(groups - 1);

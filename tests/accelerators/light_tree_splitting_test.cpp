@@ -143,7 +143,7 @@ TEST(LightTreeSplitting, StrongLightsAreNotLeftToChance) {
   lights[17].bounds.intensity = 1e5f;
   const WideLightBVH tree{LightBVHAccel(lights)};
   const LightReceiver at(volumeAt(lights[17].bounds.box.min + 0.3f));
-  EXPECT_EQ(tree.expectedCount(at, 17, LightSplitting(0.1f, 12)), 1);
+  EXPECT_GT(tree.expectedCount(at, 17, LightSplitting(0.1f, 12)), 0.999f);
 }
 
 // The thesis's program: one random number for all lights of a cut, so all of them are near their
