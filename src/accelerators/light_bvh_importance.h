@@ -40,6 +40,8 @@ class LightReceiver {
     sides_ = facing == 0 ? Sides::Both : Sides::One;
     side_ = (facing > 0) == ctx.reflects ? ctx.n : -ctx.n;
     ns_ = faceForward(ctx.ns, side_);
+    const float tilt = length(cross(ns_, side_));
+    if (tilt > kFloor) tilt_ = tilt;
   }
   /// Any point within `radius` of `center`, without a surface.
   LightReceiver(const Vec3& center, float radius)
@@ -53,6 +55,9 @@ class LightReceiver {
   /// The normal of the side that counts, for lights without a position; both sides if bothSides().
   const Vec3& side() const { return sides_ == Sides::One ? side_ : ns_; }
   const Vec3& shadingNormal() const { return ns_; }
+  /// The largest |cos| with the shading normal of a direction that the geometric normal has in
+  /// front and the shading normal behind: the BSDF tests by the one and weighs by the other.
+  float tilt() const { return tilt_; }
   bool bothSides() const { return sides_ != Sides::One; }
   /// False in a volume: light counts alike from everywhere.
   bool hasSurface() const { return sides_ != Sides::Free; }
@@ -80,17 +85,20 @@ class LightReceiver {
   Vec3 p_;
   Vec3 side_{0}, ns_{0, 0, 1};
   float radius_ = 0;
+  float tilt_ = 0;  ///< sine between the normals, if one side counts and they differ
   LightFactors factors_ = LightFactors::Mean;
   Sides sides_ = Sides::None;
 };
 
 /// The cosine at the receiver. The BSDF tests sides by the geometric normal but weighs by
-/// |cos| of the shading normal; where the two disagree about the node, so does this.
+/// |cos| of the shading normal; where the latter is behind, |cos| is the sine between the two at
+/// most.
 inline float LightReceiver::receiverFactor(const Vec3& d, float invLength, float cosB,
                                            float sine2B) const {
   if (sides_ == Sides::Free) return 1;
   float cosine = std::clamp(dot(ns_, d) * invLength, -1.f, 1.f);
-  if (sides_ == Sides::Both || (cosine < 0 && dot(side_, d) >= 0)) cosine = std::abs(cosine);
+  if (sides_ == Sides::Both) cosine = std::abs(cosine);
+  if (tilt_ > 0 && cosine < 0) cosine = std::min(-cosine, tilt_);
   if (factors_ == LightFactors::Thesis) return 1;
   if (factors_ == LightFactors::Bound)
     return std::max(kFloor, relax(cosine, std::max(0.f, 1 - cosine * cosine), cosB, sine2B));

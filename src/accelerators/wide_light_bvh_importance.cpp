@@ -94,7 +94,7 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
                                                     const Float8& invLength, const Uncertainty& b) {
   Float8 cosine =
       stdx::clamp(dot(at.shadingNormal(), g.toCenter) * invLength, Float8(-1), Float8(1));
-  if (!at.bothSides()) where(cosine < 0 && dot(at.side(), g.toCenter) >= 0, cosine) = -cosine;
+  if (at.tilt() > 0) where(cosine < 0, cosine) = stdx::min(-cosine, Float8(at.tilt()));
   const MeanCosine mean(cosine, capMeans(b.cosine));
   return stdx::max(at.bothSides() ? mean.absolute : mean.clamped, Float8(LightReceiver::kFloor));
 }

@@ -226,10 +226,12 @@ TYPED_TEST(LightTreeFault, BrightDotsBehindGlass) {
       l.bounds.box = Bounds3(l.bounds.box.min + shift, l.bounds.box.max + shift);
     }
     const TypeParam tree = TestFixture::build(lights);
-    for (uint64_t i = 0; i < 40; ++i) {
+    for (uint64_t i = 0; i < 90; ++i) {
       LightSampleContext c = opaqueAt(randomPoint(i, 50) * Vec3(1, 1, 0), randomDirection(i, 60));
       c.ns = normalize(c.n + 0.5f * randomDirection(i, 62));
-      c.transmits = true;
+      // Glass, what only transmits, and what only reflects.
+      c.transmits = i % 3 != 2;
+      c.reflects = i % 3 != 1;
       const auto pmf = pmfs(tree, c, lights.size());
       double sum = 0, largest = 0;
       for (size_t l = 0; l < lights.size(); ++l) {
@@ -243,7 +245,9 @@ TYPED_TEST(LightTreeFault, BrightDotsBehindGlass) {
         ASSERT_GT(pmf[l], 0);
         largest = std::max(largest, e / pmf[l]);
       }
-      EXPECT_LT(largest, 40 * sum) << i;
+      // Each of the binary tree's many choices adds to what is overestimated.
+      const double bound = std::is_same_v<TypeParam, WideLightBVH> ? 40 : 200;
+      EXPECT_LT(largest, bound * sum) << i;
     }
   }
 }
