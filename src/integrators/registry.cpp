@@ -4,6 +4,7 @@
 // One line a plugin: n stands for the entry function nPlugin().
 #define LAMPYRIS_INTEGRATORS(PLUGIN) \
   PLUGIN(path)                       \
-  PLUGIN(pathTree) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion) PLUGIN(bdpt)
+  PLUGIN(pathTree)                   \
+  PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion) PLUGIN(bdpt) PLUGIN(sppm)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

@@ -32,6 +32,12 @@ class RadianceEstimator {
   virtual ~RadianceEstimator() = default;
   /// One estimate, a pure function of the arguments. `stream` stands at kFirstPathDimension.
   virtual Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const = 0;
+  /// Called before each pass, from one thread: the next samples of all pixels are number `first`
+  /// and on, `samples` of them. Returns how many of these, ≥ 1, it is ready for: the pass is as
+  /// long.
+  virtual uint64_t beginPass(uint64_t first, uint64_t samples) const {
+    return (void)first, samples;
+  }
 };
 
 /// Dimensions 0–1 are the position on the film, 2–3 on the lens, 4 the time. The first one left is

@@ -18,7 +18,7 @@ struct KindNames {
 };
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
-      {"integrator", "integrator", {"volpath", "sppm", "mlt"}},
+      {"integrator", "integrator", {"volpath", "mlt"}},
   };
   return all;
 }
