@@ -16,7 +16,7 @@ namespace lampyris {
 namespace {
 
 constexpr int kMaxInterfaces = 1000;
-constexpr uint64_t kTypicalSamples = 1024;
+constexpr uint64_t kTypicalSamples = 256;
 
 LightSampleContext contextOf(const PathVertex& v) { return {v.at, v.bsdf}; }
 

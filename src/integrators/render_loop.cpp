@@ -114,7 +114,7 @@ uint64_t PassRenderer::run() {
     const auto pass = schedule_.next(done_, seconds(), noise_);
     if (!pass) break;
     deadline_ = pass->deadline;
-    renderPass(pass->samples);
+    renderPass(estimator_.beginPass(done_, pass->samples));
     if (!cancelled()) passDone();
   }
   report(seconds());

@@ -55,6 +55,12 @@ class RadianceEstimator {
   /// One estimate, a pure function of the arguments. `stream` stands at kFirstPathDimension.
   virtual Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const = 0;
   virtual std::unique_ptr<EstimatorMemory> makeMemory() const { return nullptr; }
+  /// Called before each pass, from one thread: the next samples of all pixels are number `first`
+  /// and on, `samples` of them. Returns how many of these, ≥ 1, it is ready for: the pass is as
+  /// long.
+  virtual uint64_t beginPass(uint64_t first, uint64_t samples) const {
+    return (void)first, samples;
+  }
 };
 
 /// Learns between passes. With an observer, tiles and the sizes of passes depend neither on the

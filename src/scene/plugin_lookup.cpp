@@ -18,7 +18,7 @@ struct KindNames {
 };
 const std::vector<KindNames>& pbrtNames() {
   static const std::vector<KindNames> all = {
-      {"integrator", "integrator", {"sppm", "mlt"}},
+      {"integrator", "integrator", {"mlt"}},
   };
   return all;
 }

@@ -35,8 +35,9 @@ std::string rendered(int threads, const std::string& integrator) {
 }
 
 TEST(RenderLoop, ThreadsDoNotChangeABit) {
-  for (const char* integrator : {"\"path\"", "\"directlighting\"", "\"whitted\"",
-                                 "\"ambientocclusion\" \"integer nsamples\" 5", "\"bdpt\""})
+  for (const char* integrator :
+       {"\"path\"", "\"directlighting\"", "\"whitted\"",
+        "\"ambientocclusion\" \"integer nsamples\" 5", "\"bdpt\"", "\"sppm\" \"float radius\" 0.1"})
     EXPECT_EQ(rendered(1, integrator), rendered(4, integrator));
 }
 

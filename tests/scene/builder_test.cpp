@@ -235,7 +235,6 @@ TEST(Builder, NamesOfPbrtThatAreNotThereYet) {
       {world("Texture \"t\" \"color\" \"ptex\" Material \"matte\" \"texture Kd\" \"t\" " + t),
        "3:1: \"ptex\" is a pbrt-v3 texture that Lampyris cannot read: it is built without the Ptex "
        "library; bake the texture to an image and use \"imagemap\""},
-      {"Integrator \"bdpt\" " + world(""), "1:1: \"bdpt\" is a pbrt-v3 integrator" + yet},
       {"Integrator \"mlt\" " + world(""), "1:1: \"mlt\" is a pbrt-v3 integrator" + yet},
   };
   for (const auto& [text, error] : cases) EXPECT_EQ(buildError(text), error) << text;

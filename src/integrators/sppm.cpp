@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stochastic progressive photon mapping (Hachisuka and Jensen 2009) in the form of Knaus and
+// Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach": every iteration is a photon
+// map of its own with a smaller radius, and the image is the mean of the iterations. So an
+// iteration is a sample of every pixel like any other integrator's, and nothing is kept from one to
+// the next. The radii are those that pbrt-v3's pixels have when all iterations bring them as many
+// photons; its image has them all at the last radius, here each counts with its own.
+//
+// Cost an iteration: "photonsperiteration" paths from lights, and a path from the camera for each
+// pixel up to its first diffuse surface.
+#include <cmath>
+
+#include "core/parallel.h"
+#include "integrators/aov_surface.h"
+#include "integrators/direct_lighting.h"
+#include "integrators/photon_map.h"
+#include "integrators/subpath_tracer.h"
+
+namespace lampyris {
+
+namespace {
+
+constexpr int kMaxInterfaces = 1000;
+/// Hachisuka's α: the share of an iteration's photons that a pixel keeps.
+constexpr double kKept = 2. / 3;
+/// Paths from lights that one thread traces at a time.
+constexpr size_t kPhotonChunk = 4096;
+
+struct SppmParameters {
+  int maxDepth = 5, iterations = 64, photons = -1;
+  float radius = 1;
+  std::vector<int> pixelBounds;
+  std::string lightSampler;
+
+  void declare(Declaration& d) {
+    d.add("maxdepth", maxDepth, "Longest path of a photon, and of the camera to its surface.")
+        .range(0, 1000);
+    d.add("iterations", iterations, "Photon maps, each of which is one sample of every pixel.")
+        .alias("numiterations")
+        .range(1, 1 << 30);
+    d.add("photonsperiteration", photons, "Paths from lights in each; −1: as many as pixels.")
+        .range(-1, 2e7);
+    d.add("radius", radius, "Distance within which the first iteration gathers photons.")
+        .range(1e-15, 1e15);
+    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+    d.add("lightsampler", lightSampler,
+          "Which light to sample at a point; see kind lightsampler. Photons start by power.")
+        .alias("lightsamplestrategy")
+        .defaultIs("bvh");
+    d.ignored("imagewritefrequency", "images are written between passes, as for any integrator");
+  }
+};
+
+class SppmEstimator final : public RadianceEstimator {
+ public:
+  SppmEstimator(const RenderContext& context, const SppmParameters& p,
+                const LightDistribution* distribution)
+      : context_(context),
+        geometry_(*context.scene.geometry),
+        lighting_(context.scene, LightStrategy::One, distribution),
+        emitters_(context.scene.lightTable),
+        tracer_(context.scene, emitters_, p.maxDepth),
+        maxDepth_(p.maxDepth),
+        firstRadius_(static_cast<double>(p.radius)),
+        photons_(static_cast<size_t>(p.photons > 0 ? p.photons : context.film.bounds().area())) {}
+
+  uint64_t beginPass(uint64_t first, uint64_t samples) const override;
+  Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override;
+
+ private:
+  void tracePhoton(uint64_t iteration, size_t number, Subpath& path, RayCounts& rays,
+                   std::vector<Photon>& out) const;
+  Rgb gather(const SurfaceInteraction& at, const Bsdf& bsdf) const;
+  double squaredRadius(uint64_t iteration) const;
+
+  const RenderContext& context_;
+  const Geometry& geometry_;
+  const DirectLighting lighting_;
+  const EmitterTable emitters_;
+  const SubpathTracer tracer_;
+  const int maxDepth_;
+  const double firstRadius_;
+  const size_t photons_;
+  mutable PhotonMap map_;  ///< of the pass; written between passes
+  mutable double gatherArea_ = 1;
+};
+
+/// r² times the product of α j / (α (j − 1) + 1) over the iterations j before, by Γ functions.
+double SppmEstimator::squaredRadius(uint64_t iteration) const {
+  const double n = static_cast<double>(iteration), shift = 1 / kKept;
+  const double logarithm = std::lgamma(n + 1) + std::lgamma(shift) - std::lgamma(n + shift);
+  return firstRadius_ * firstRadius_ * std::exp(logarithm);
+}
+
+/// One iteration a pass: its photon map serves all pixels.
+uint64_t SppmEstimator::beginPass(uint64_t first, uint64_t) const {
+  const double squared = squaredRadius(first);
+  gatherArea_ = static_cast<double>(kPi) * squared;
+  if (emitters_.empty()) return 1;
+  const size_t chunks = (photons_ + kPhotonChunk - 1) / kPhotonChunk;
+  std::vector<std::vector<Photon>> found(chunks);
+  parallelFor(chunks, 1, [&](size_t begin, size_t end) {
+    Subpath path;
+    RayCounts rays;
+    for (size_t c = begin; c < end; ++c)
+      for (size_t i = c * kPhotonChunk; i < std::min((c + 1) * kPhotonChunk, photons_); ++i)
+        tracePhoton(first, i, path, rays, found[c]);
+  });
+  std::vector<Photon> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  map_ = PhotonMap(std::move(all), static_cast<float>(std::sqrt(squared)));
+  return 1;
+}
+
+/// What a photon meets first is left to light sampling.
+void SppmEstimator::tracePhoton(uint64_t iteration, size_t number, Subpath& path, RayCounts& rays,
+                                std::vector<Photon>& out) const {
+  const PixelBounds pixels = context_.film.bounds();
+  const auto area = static_cast<uint64_t>(pixels.area()),
+             perIteration = (photons_ + area - 1) / area;
+  const uint64_t pixel = number % area;
+  const auto width = static_cast<uint64_t>(pixels.size().x);
+  const Int2 at(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+  SampleStream stream(context_.sampler,
+                      {pixels.min + at, iteration * perIteration + number / area});
+  // The camera tells what time a photon has: that at which its shutter is open.
+  CameraSample sample;
+  sample.film = Vec2(pixels.min + at) + 0.5f;
+  stream.setDimension(4);
+  sample.time = stream.next1D();
+  tracer_.fromLight(context_.camera.generate(sample).ray.time, stream, path, rays);
+  for (size_t i = 2; i < path.size(); ++i) {
+    const PathVertex& v = path[i];
+    if (!v.bsdf.isSpecular())
+      out.push_back({v.at.p, v.at.wo, v.at.n, v.throughput / static_cast<float>(photons_)});
+  }
+}
+
+/// Indirect light that `at` scatters: the density of the photons around.
+Rgb SppmEstimator::gather(const SurfaceInteraction& at, const Bsdf& bsdf) const {
+  Rgb sum;
+  map_.search(at.p, [&](const Photon& photon) {
+    const Rgb f = bsdf.f(at.wo, photon.wi);
+    if (f.isBlack()) return;
+    // Photons come by the geometric normal, the BSDF's cosine is that of the shading normal.
+    const float cosines = safeDivide(bsdf.absCosTheta(photon.wi), absDot(photon.wi, photon.n));
+    sum += f * photon.power * cosines;
+  });
+  return sum / static_cast<float>(gatherArea_);
+}
+
+Rgb SppmEstimator::radiance(const CameraRay& camera, SampleStream& stream,
+                            RenderState& state) const {
+  Rgb sum, throughput(1);
+  Ray ray = camera.ray;
+  const RayDifferential* differential = &camera.differential;
+  bool specular = true;
+  for (int depth = 0, interfaces = 0; depth < maxDepth_ && interfaces <= kMaxInterfaces;) {
+    ++state.rays.closest;
+    const auto hit = geometry_.intersect(ray);
+    if (!hit) {
+      if (specular) sum += throughput * lighting_.outside(ray.d);
+      break;
+    }
+    const Primitive& primitive = geometry_.primitive(*hit);
+    const Material* const material = primitive.material;
+    const bool footprint = differential && material && material->wantsDifferentials();
+    SurfaceInteraction at = geometry_.surface(ray, *hit,
+                                              footprint  ? SurfaceDetail::Full
+                                              : material ? material->detail()
+                                                         : SurfaceDetail::Basic);
+    if (primitive.light && specular) sum += throughput * primitive.light->emitted(at, at.wo);
+    if (!material) {
+      ++interfaces;
+      differential = nullptr;
+      ray.o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
+      continue;
+    }
+    if (footprint) at.computeDifferentials(*differential);
+    differential = nullptr;
+    const Bsdf& bsdf = state.bsdf;
+    material->evaluate(at, state.bsdf);
+    // Two sets of dimensions; those between are the photons'.
+    const auto set = 2 * static_cast<size_t>(depth);
+    const uint32_t first = cameraDimension(set);
+    const uint32_t forDirection = cameraDimension(set + 1) + kDirectionOffset;
+    if (state.aov && depth == 0) {
+      stream.setDimension(forDirection);
+      recordSurface(*state.aov, at, bsdf, stream);
+    }
+    if (!bsdf.isSpecular() && lighting_.hasLights()) {
+      const LightSampleContext context(at, bsdf);
+      stream.setDimension(first);
+      Rgb light = lighting_.lightSamples(context, ray.time, stream, state.rays);
+      stream.setDimension(first + 4);
+      light += lighting_.bsdfSamples(context, ray.time, stream, state.rays);
+      sum += throughput * light;
+    }
+    const bool last = depth + 1 >= maxDepth_;
+    if ((bsdf.flags() & kDiffuse) || (last && (bsdf.flags() & kGlossy))) {
+      sum += throughput * gather(at, bsdf);
+      break;
+    }
+    if (last) break;
+    stream.setDimension(forDirection);
+    const Vec2 u = stream.next2D();
+    const auto s = bsdf.sample(at.wo, stream.next1D(), u);
+    if (!s || !(s->pdf > 0)) break;
+    throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
+    if (throughput.isBlack()) break;
+    specular = s->isSpecular();
+    ray.o = offsetRayOrigin(at.p, at.pError, at.n, s->wi);
+    ray.d = s->wi;
+    ray.tMax = kInfinity;
+    ++depth;
+    interfaces = 0;
+  }
+  return sum;
+}
+
+class SppmIntegrator final : public Integrator {
+ public:
+  SppmIntegrator(SppmParameters parameters, SourceLocation location,
+                 std::unique_ptr<LightDistribution> distribution)
+      : parameters_(std::move(parameters)),
+        location_(location),
+        distribution_(std::move(distribution)) {}
+
+  uint64_t render(RenderContext& context) const override {
+    const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
+    RenderContext own = context;
+    RenderOptions& o = own.options;
+    // As in pbrt-v3 the sampler's number does not count.
+    if (o.sampleCount == 0 && !(o.seconds > 0) && !(o.noise > 0))
+      o.sampleCount = static_cast<uint64_t>(parameters_.iterations);
+    return renderPasses(own, pixels, SppmEstimator(own, parameters_, distribution_.get()));
+  }
+
+ private:
+  const SppmParameters parameters_;
+  const SourceLocation location_;
+  const std::unique_ptr<LightDistribution> distribution_;
+};
+
+std::unique_ptr<Integrator> create(const SppmParameters& p, const IntegratorContext& context) {
+  return std::make_unique<SppmIntegrator>(p, context.location,
+                                          context.lightDistribution(p.lightSampler));
+}
+
+}  // namespace
+
+IntegratorRegistry::Entry sppmPlugin() {
+  return makePlugin("sppm", "Stochastic progressive photon mapping.", create);
+}
+
+}  // namespace lampyris
