@@ -31,16 +31,16 @@ bool sameLetter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// Insertions, deletions, substitutions and swaps of neighbours that make `a` of `b` (optimal string
-/// alignment).
+/// Insertions, deletions, substitutions and swaps of neighbours that make `a` of `b` (optimal
+/// string alignment).
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> before, above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), size_t{0});
   for (size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1,
-                         above[j - 1] + (sameLetter(a[i - 1], b[j - 1]) ? 0 : 1)});
+      row[j] = std::min(
+          {above[j] + 1, row[j - 1] + 1, above[j - 1] + (sameLetter(a[i - 1], b[j - 1]) ? 0 : 1)});
       if (i > 1 && j > 1 && sameLetter(a[i - 1], b[j - 2]) && sameLetter(a[i - 2], b[j - 1]))
         row[j] = std::min(row[j], before[j - 2] + 1);
     }

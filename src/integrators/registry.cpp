@@ -2,10 +2,11 @@
 #include "integrators/registry.h"
 
 // One line a plugin: n stands for the entry function nPlugin().
-#define LAMPYRIS_INTEGRATORS(PLUGIN)                                        \
-  PLUGIN(path)                                                              \
-  PLUGIN(pathTree)                                                          \
-  PLUGIN(volpath) PLUGIN(guidedPath) PLUGIN(directLighting) PLUGIN(whitted) \
-      PLUGIN(ambientOcclusion) PLUGIN(bdpt) PLUGIN(sppm)
+#define LAMPYRIS_INTEGRATORS(PLUGIN)                                                              \
+  PLUGIN(path)                                                                                    \
+  PLUGIN(pathTree)                                                                                \
+  PLUGIN(volpath)                                                                                 \
+  PLUGIN(guidedPath) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion) PLUGIN(bdpt) \
+      PLUGIN(sppm)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What spheres, disks, cylinders and cones share: a parametric surface in object space under an affine map.
+/// What spheres, disks, cylinders and cones share: a parametric surface in object space under an
+/// affine map.
 #pragma once
 
 #include <glm/mat3x3.hpp>

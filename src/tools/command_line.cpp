@@ -21,10 +21,8 @@ struct Command {
   int (*run)(const Arguments&);
 };
 constexpr std::array kCommands = {
-    Command{"compare", runCompare},
-    Command{"convert", runConvert},
-    Command{"help-scene", runHelpScene},
-    Command{"info", runInfo},
+    Command{"compare", runCompare},      Command{"convert", runConvert},
+    Command{"help-scene", runHelpScene}, Command{"info", runInfo},
     Command{"lights", runLights},
 };
 

@@ -2,17 +2,18 @@
 #include "light_scenes.h"
 
 #include <gtest/gtest.h>
+
 #include <map>
 
 #include "core/sampling.h"
 #include "lightdistributions/registry.h"
 #include "lights/area_registry.h"
 #include "lights/registry.h"
-#include "shapes/triangle_mesh.h"
 #include "materials/fresnel_blend.h"
 #include "materials/lambert.h"
 #include "materials/microfacet_reflection.h"
 #include "materials/rough_dielectric.h"
+#include "shapes/triangle_mesh.h"
 #include "support/statistics.h"
 
 namespace lampyris::test {
