@@ -155,7 +155,9 @@ TEST(ExitPupil, HoldsEveryRayThatPasses) {
 class RealisticCamera : public testing::Test {
  protected:
   std::unique_ptr<Camera> make(const std::string& lens, std::vector<Parameter> more = {}) {
-    path_ = testing::TempDir() + "lens.dat";
+    // Tests run side by side: each has a file of its own.
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = testing::TempDir() + "lens-" + test->name() + ".dat";
     std::ofstream(path_) << lens;
     name_[0] = path_;
     Parameter file;
