@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs a suite of scenes and variants at equal time and writes what came out: OUT/results.json.
 
@@ -28,6 +28,8 @@ def arguments():
     p.add_argument("--repetitions", type=int, help="instead of the suite's")
     p.add_argument("--reference-seconds", type=float, help="of each half of a reference, instead of the suite's")
     p.add_argument("--threads", type=int, help="of the program, instead of the suite's; 0: all")
+    p.add_argument("--first-seed", type=int, default=1, help="of the first repetition; another makes an independent run of "
+                   "the suite, which agreement.py compares")
     return p.parse_args()
 
 
@@ -46,18 +48,20 @@ def selected(suite, args):
         for r in [suite.reference, *(s.reference for s in suite.scenes if s.reference)]:
             r.seconds, r.spp = args.reference_seconds, 0
     if args.threads is not None: suite.threads = args.threads
+    if not 1 <= args.first_seed < schedule.REFERENCE_SEED - suite.repetitions:
+        raise suites.SuiteError("--first-seed must be from 1, and below the seeds of references")
     suite.threads = suite.threads or os.cpu_count()
     return suite
 
 
-def measure(suite, runner):
+def measure(suite, runner, first_seed):
     """Yields the summary of one scene after another."""
     for s in suite.scenes:
         runner.say(s.name)
         try:
             file = runner.scene_file(s)
             references = schedule.reference_halves(runner, suite, s, file)
-            found = schedule.scene_runs(runner, suite, s, file, references)
+            found = schedule.scene_runs(runner, suite, s, file, references, first_seed)
             yield summary.scene(suite, s, runner.scene_hash(file), references, found, images.Folder(runner.out))
         except (Failed, OSError, ValueError, subprocess.CalledProcessError) as e:
             runner.say("  the scene is left out: %s" % e)
@@ -71,13 +75,13 @@ def main():
     runner = Runner(args.binary, out, suite.threads, lambda text: print(text, flush=True))
     results = {"suite": suite.name, "title": suite.title or suite.name, "description": suite.description,
                "date": datetime.date.today().isoformat(), "seconds": suite.seconds, "threads": suite.threads,
-               "repetitions": suite.repetitions, "machine": machine.machine(), "build": machine.build(args.binary),
+               "repetitions": suite.repetitions, "first_seed": args.first_seed, "machine": machine.machine(), "build": machine.build(args.binary),
                "variants": {v.name: v.title or v.name for v in suite.variants}, "scenes": []}
     path, (seconds, renders) = runner.path("results.json"), suite.expected_seconds()
     print("%s: %d renders of %.0f minutes in all; loading and evaluating come to that, what is done already goes off"
           % (suite.name, renders, math.ceil(seconds / 60)), flush=True)
     try:
-        for s in measure(suite, runner):
+        for s in measure(suite, runner, args.first_seed):
             results["scenes"].append(s)
             # After each scene, so that there is something to look at before the end.
             with open(path + ".tmp", "w") as f: json.dump(results, f, indent=1)

@@ -8,7 +8,7 @@ from .suite import AOV_SHARE
 
 AOVS = ("lightcut", "bsdfshare", "lightentropy", "variance", "pathlength", "time")
 AOV_SEED = 0
-REFERENCE_SEED = 1000000  # runs have the seeds 1, 2, …: a reference must be independent of them
+REFERENCE_SEED = 1000000  # above those of runs: a reference must be independent of them
 
 
 def reference_halves(runner, suite, scene, file):
@@ -33,7 +33,7 @@ def held_against(reference):
     return digest
 
 
-def scene_runs(runner, suite, scene, file, references):
+def scene_runs(runner, suite, scene, file, references, first_seed=1):
     """{variant: {"runs": [record], "aovs": record or None, "failed": text}}.
 
     A repetition runs every variant once before the next begins, and each begins with another variant: what
@@ -56,7 +56,7 @@ def scene_runs(runner, suite, scene, file, references):
     for k in range(suite.repetitions):
         first = k % len(variants)
         for v in variants[first:] + variants[:first]:
-            record = attempt(v, "%02d" % k, seconds, seed=k + 1, snapshots=snapshots, judge=judge)
+            record = attempt(v, "%02d" % k, seconds, seed=first_seed + k, snapshots=snapshots, judge=judge)
             if record: found[v.name]["runs"].append(record)
     for v in variants:
         found[v.name]["aovs"] = attempt(v, "aovs", seconds * AOV_SHARE, seed=AOV_SEED, aovs=AOVS)

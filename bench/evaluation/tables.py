@@ -22,7 +22,10 @@ def cell(content, small="", kind=""):
 
 
 def interval(ends):
-    return "%s – %s" % tuple(number(v, 2) for v in ends) if ends else ""
+    if not ends: return ""
+    low, high = (number(v, 2).partition(" × ") for v in ends)
+    if low[2] and low[2] == high[2]: return "(%s – %s) × %s" % (low[0], high[0], low[2])
+    return "%s – %s" % tuple(map("".join, (low, high)))
 
 
 def times(estimate):
@@ -51,9 +54,9 @@ def best_of(variants, value):
     return max(values, key=values.get) if len(values) > 1 else None
 
 
-def variant_rows(scene, colour_of, cut_names):
+def variant_rows(scene, colour_of, with_lights):
     best = best_of(scene["variants"], lambda v: (v["against_base"]["trimmed"] or {}).get("value"))
-    columns = 10 + len(cut_names)
+    columns = 9 + with_lights
     for v in scene["variants"]:
         head = '<tr><th scope="row">%s%s%s</th>' % (
             swatch(colour_of[v["name"]]), html.escape(v["title"]), " (then failed)" if v["runs"] and v["failed"] else "")
@@ -61,15 +64,20 @@ def variant_rows(scene, colour_of, cut_names):
             yield head + '<td class="why" colspan="%d">failed: %s</td></tr>' % (
                 columns, html.escape(v["failed"].strip().split("\n")[-1][:300]))
             continue
-        cells = [cell(number(v["seconds"]) + " s"), cell(count(v["spp"])), cell(number(v["samples_per_second"]))]
+        cells = [cell(number(v["seconds"]) + " s"), cell(count(v["spp"]), number(v["samples_per_second"]) + "/s")]
         for m in METRICS:
             e = v["errors"][m]
             cells.append(cell(number(e["value"]), interval(e["ci"])))
         cells.append(bias_cell(v["bias"]))
         cells += ratio_cells(scene, v, best)
-        cells += [cell(number(v["light_statistics"].get(n))) for n in cut_names]
+        if with_lights: cells.append(light_cell(v["light_statistics"]))
         cells.append(cell(size(v["memory"]), number(v["load_seconds"], 2) + " s"))
         yield head + "".join(cells) + "</tr>"
+
+
+def light_cell(statistics):
+    if not statistics: return cell("–")
+    return cell(number(statistics["entropy, bits"]) + " bit", number(statistics["lights drawn"]))
 
 
 def ratio_cells(scene, v, best):
@@ -81,19 +89,20 @@ def ratio_cells(scene, v, best):
 
 
 def scene_table(scene, colour_of):
-    cut_names = sorted({n for v in scene["variants"] if v["runs"] for n in v["light_statistics"]})
-    heads = ["time", "spp", "samples/s", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
-             "at equal spp", *map(html.escape, cut_names), "memory, load"]
+    with_lights = any(v["light_statistics"] for v in scene["variants"] if v["runs"])
+    heads = ["time", "spp, samples", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
+             "at equal spp", *["entropy, lights"] * with_lights, "memory, load"]
     floor = scene["reference"]["floor"]
     caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the "
                "reference's, z its distance from 1 in standard deviations. <b>At equal time</b>: how many times less time "
                "it needs than <i>%s</i> for the same %s; <b>at equal spp</b>: how many times smaller that error is, at the most samples "
-               "that all runs of both have. <b>Lights drawn</b> and <b>entropy</b>: means over the points where lights are sampled. The "
+               "that all runs of both have. <b>Entropy</b> of the choice of a light, in bits, and how many <b>lights</b> are drawn: means "
+               "over the points where lights are sampled. The "
                "reference's own error: %s." % (
                    html.escape(scene["base"]), METRIC_TITLES["trimmed"],
                    ", ".join("%s %s" % (METRIC_TITLES[m], number(floor[m], 2)) for m in METRICS)))
     return table(caption, "<th>light sampler</th>" + "".join("<th>%s</th>" % h for h in heads),
-                 "".join(variant_rows(scene, colour_of, cut_names)))
+                 "".join(variant_rows(scene, colour_of, with_lights)))
 
 
 def table(caption, head, body, foot=""):

@@ -21,7 +21,7 @@ try:
 except ImportError:
     print("SKIPPED: numpy is missing (Debian: python3-numpy)")
     sys.exit(0)
-from evaluation import colours, exr, heatmaps, images, intervals, measures, plots, suite as suites, tables  # noqa: E402
+from evaluation import agreement, colours, exr, heatmaps, images, intervals, measures, plots, suite as suites, tables  # noqa: E402
 from generator import splitting, thesis  # noqa: E402
 
 
@@ -140,7 +140,7 @@ class Intervals(unittest.TestCase):
         apart = 0
         for _ in range(1500):
             a, b = self.ratio(rng)["ci"], self.ratio(rng)["ci"]
-            apart += a[1] < b[0] or b[1] < a[0]
+            apart += not agreement.Pair("scene", "variant", {"ci": a}, {"ci": b}).agrees
         self.assertLess(apart / 1500, .01)
 
     def test_means_hold_the_truth_as_often_as_they_say(self):
@@ -295,11 +295,11 @@ class WholeSuites(unittest.TestCase):
         cls.results = cls.run_suite(cls.folder)
 
     @staticmethod
-    def run_suite(folder):
+    def run_suite(folder, out="out", *options):
         subprocess.run([sys.executable, os.path.join(BENCH, "equal_time.py"), os.path.join(folder, "suite.json"),
-                        "--out", os.path.join(folder, "out"), "--binary", os.path.join(folder, "fake")],
+                        "--out", os.path.join(folder, out), "--binary", os.path.join(folder, "fake"), *options],
                        check=True, capture_output=True, text=True)
-        with open(os.path.join(folder, "out", "results.json")) as f: return json.load(f)
+        with open(os.path.join(folder, out, "results.json")) as f: return json.load(f)
 
     @staticmethod
     def calls(folder):
@@ -346,6 +346,28 @@ class WholeSuites(unittest.TestCase):
         # Each repetition begins with the variant after the one that the last began with.
         plain, better, biased = "fake.variance=1", "fake.variance=0.1", "fake.variance=0.5"
         self.assertEqual(turns[:6], [plain, better, biased, better, biased, plain])
+
+    def test_another_first_seed_makes_an_independent_run(self):
+        folder = os.path.join(self.folder, "again")
+        shutil.copytree(self.folder, folder)
+        second = self.run_suite(folder, "second", "--first-seed", "101")
+        runs = second["scenes"][0]["variants"][0]["runs"]
+        self.assertEqual([r["seed"] for r in runs], [101, 102, 103, 104])
+        first, other = (os.path.join(folder, o, "results.json") for o in ("out", "second"))
+
+        def compare():
+            return subprocess.run([sys.executable, os.path.join(BENCH, "agreement.py"), first, other],
+                                  capture_output=True, text=True)
+        done = compare()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("3 of 3 ratios agree", done.stdout)
+        better = second["scenes"][1]["variants"][1]["against_base"]["trimmed"]
+        for part in ("value", "ci"): better[part] = (np.array(better[part]) * 3).tolist()
+        with open(other, "w") as f: json.dump(second, f)
+        done = compare()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("2 of 3 ratios agree", done.stdout)
+        self.assertIn("**apart**", done.stdout)
 
     def test_page_stands_alone(self):
         out = os.path.join(self.folder, "page.html")
