@@ -5,13 +5,12 @@
 #include "core/frame.h"
 #include "core/sampling.h"
 #include "integrators/aov_surface.h"
+#include "integrators/ray_surface.h"
 #include "integrators/render_loop.h"
 
 namespace lampyris {
 
 namespace {
-
-constexpr int kMaxInterfaces = 1000;
 
 struct AmbientOcclusionParameters {
   bool cosineSampled = true;

@@ -10,12 +10,12 @@
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/light_connection.h"
+#include "integrators/ray_surface.h"
 
 namespace lampyris {
 
 namespace {
 
-constexpr int kMaxInterfaces = 1000;
 constexpr uint64_t kTypicalSamples = 256;
 
 LightSampleContext contextOf(const PathVertex& v) { return {v.at, v.bsdf}; }

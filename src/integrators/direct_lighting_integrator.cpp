@@ -9,12 +9,12 @@
 
 #include "integrators/adaptive_direct.h"
 #include "integrators/aov_surface.h"
+#include "integrators/ray_surface.h"
 
 namespace lampyris {
 
 namespace {
 
-constexpr int kMaxInterfaces = 1000;
 /// Up to this depth all branches of a specular surface are followed.
 constexpr int kBranchingDepth = 6;
 constexpr size_t kMaxBranches = 2 * Bsdf::kMaxLobes;
@@ -94,14 +94,8 @@ bool DirectLightingEstimator::findSurface(Node& node, RenderState& state, Rgb& r
       return false;
     }
     const Primitive& primitive = geometry_.primitive(*hit);
-    const Material* material = primitive.material;
-    const bool footprint = node.differential && material && material->wantsDifferentials();
-    at = geometry_.surface(node.ray, *hit,
-                           footprint  ? SurfaceDetail::Full
-                           : material ? material->detail()
-                                      : SurfaceDetail::Basic);
-    if (material) {
-      if (footprint) at.computeDifferentials(*node.differential);
+    at = surfaceAt(geometry_, node.ray, *hit, node.differential);
+    if (primitive.material) {
       if (primitive.light) radiance = primitive.light->emitted(at, at.wo);
       return true;
     }

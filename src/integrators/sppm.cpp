@@ -14,13 +14,13 @@
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/photon_map.h"
+#include "integrators/ray_surface.h"
 #include "integrators/subpath_tracer.h"
 
 namespace lampyris {
 
 namespace {
 
-constexpr int kMaxInterfaces = 1000;
 /// Hachisuka's α: the share of an iteration's photons that a pixel keeps.
 constexpr double kKept = 2. / 3;
 /// Paths from lights that one thread traces at a time.
@@ -51,6 +51,14 @@ struct SppmParameters {
   }
 };
 
+/// The path of a camera ray, on its way to a surface where photons are gathered.
+struct CameraPath {
+  Ray ray;
+  const RayDifferential* differential;  ///< null but for the camera ray
+  Rgb throughput = Rgb(1), radiance{};
+  bool specular = true;  ///< did the ray leave the camera, or a specular surface?
+};
+
 class SppmEstimator final : public RadianceEstimator {
  public:
   SppmEstimator(const RenderContext& context, const SppmParameters& p,
@@ -71,6 +79,11 @@ class SppmEstimator final : public RadianceEstimator {
   void tracePhoton(uint64_t iteration, size_t number, Subpath& path, RayCounts& rays,
                    std::vector<Photon>& out) const;
   Rgb gather(const SurfaceInteraction& at, const Bsdf& bsdf) const;
+  bool findSurface(CameraPath& path, RenderState& state, SurfaceInteraction& at) const;
+  Rgb direct(const SurfaceInteraction& at, uint32_t dimension, SampleStream& stream,
+             RenderState& state) const;
+  static bool scatter(CameraPath& path, const SurfaceInteraction& at, const Bsdf& bsdf,
+                      SampleStream& stream);
   double squaredRadius(uint64_t iteration) const;
 
   const RenderContext& context_;
@@ -149,73 +162,76 @@ Rgb SppmEstimator::gather(const SurfaceInteraction& at, const Bsdf& bsdf) const 
   return sum / static_cast<float>(gatherArea_);
 }
 
-Rgb SppmEstimator::radiance(const CameraRay& camera, SampleStream& stream,
-                            RenderState& state) const {
-  Rgb sum, throughput(1);
-  Ray ray = camera.ray;
-  const RayDifferential* differential = &camera.differential;
-  bool specular = true;
-  for (int depth = 0, interfaces = 0; depth < maxDepth_ && interfaces <= kMaxInterfaces;) {
+/// Goes on to the next surface with a material; false if there is none.
+bool SppmEstimator::findSurface(CameraPath& path, RenderState& state,
+                                SurfaceInteraction& at) const {
+  for (int i = 0; i <= kMaxInterfaces; ++i) {
     ++state.rays.closest;
-    const auto hit = geometry_.intersect(ray);
+    const auto hit = geometry_.intersect(path.ray);
     if (!hit) {
-      if (specular) sum += throughput * lighting_.outside(ray.d);
-      break;
+      if (path.specular) path.radiance += path.throughput * lighting_.outside(path.ray.d);
+      return false;
     }
     const Primitive& primitive = geometry_.primitive(*hit);
-    const Material* const material = primitive.material;
-    const bool footprint = differential && material && material->wantsDifferentials();
-    SurfaceInteraction at = geometry_.surface(ray, *hit,
-                                              footprint  ? SurfaceDetail::Full
-                                              : material ? material->detail()
-                                                         : SurfaceDetail::Basic);
-    if (primitive.light && specular) sum += throughput * primitive.light->emitted(at, at.wo);
-    if (!material) {
-      ++interfaces;
-      differential = nullptr;
-      ray.o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
-      continue;
-    }
-    if (footprint) at.computeDifferentials(*differential);
-    differential = nullptr;
-    const Bsdf& bsdf = state.bsdf;
-    material->evaluate(at, state.bsdf);
+    at = surfaceAt(geometry_, path.ray, *hit, path.differential);
+    path.differential = nullptr;
+    if (primitive.light && path.specular)
+      path.radiance += path.throughput * primitive.light->emitted(at, at.wo);
+    if (primitive.material) return true;
+    path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);
+  }
+  return false;
+}
+
+/// Light from the lights that `at` scatters towards the camera.
+Rgb SppmEstimator::direct(const SurfaceInteraction& at, uint32_t dimension, SampleStream& stream,
+                          RenderState& state) const {
+  if (state.bsdf.isSpecular() || !lighting_.hasLights()) return Rgb();
+  const LightSampleContext context(at, state.bsdf);
+  stream.setDimension(dimension);
+  Rgb light = lighting_.lightSamples(context, at.time, stream, state.rays);
+  stream.setDimension(dimension + 4);
+  return light += lighting_.bsdfSamples(context, at.time, stream, state.rays);
+}
+
+/// Turns the path into a direction that the BSDF draws; false: it ends.
+bool SppmEstimator::scatter(CameraPath& path, const SurfaceInteraction& at, const Bsdf& bsdf,
+                            SampleStream& stream) {
+  const Vec2 u = stream.next2D();
+  const auto s = bsdf.sample(at.wo, stream.next1D(), u);
+  if (!s || !(s->pdf > 0)) return false;
+  path.throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
+  path.specular = s->isSpecular();
+  path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, s->wi);
+  path.ray.d = s->wi;
+  path.ray.tMax = kInfinity;
+  return !path.throughput.isBlack();
+}
+
+Rgb SppmEstimator::radiance(const CameraRay& camera, SampleStream& stream,
+                            RenderState& state) const {
+  CameraPath path{camera.ray, &camera.differential};
+  const Bsdf& bsdf = state.bsdf;
+  SurfaceInteraction at;
+  for (int depth = 0; depth < maxDepth_ && findSurface(path, state, at); ++depth) {
+    at.primitive->material->evaluate(at, state.bsdf);
     // Two sets of dimensions; those between are the photons'.
     const auto set = 2 * static_cast<size_t>(depth);
-    const uint32_t first = cameraDimension(set);
     const uint32_t forDirection = cameraDimension(set + 1) + kDirectionOffset;
     if (state.aov && depth == 0) {
       stream.setDimension(forDirection);
       recordSurface(*state.aov, at, bsdf, stream);
     }
-    if (!bsdf.isSpecular() && lighting_.hasLights()) {
-      const LightSampleContext context(at, bsdf);
-      stream.setDimension(first);
-      Rgb light = lighting_.lightSamples(context, ray.time, stream, state.rays);
-      stream.setDimension(first + 4);
-      light += lighting_.bsdfSamples(context, ray.time, stream, state.rays);
-      sum += throughput * light;
-    }
+    path.radiance += path.throughput * direct(at, cameraDimension(set), stream, state);
     const bool last = depth + 1 >= maxDepth_;
     if ((bsdf.flags() & kDiffuse) || (last && (bsdf.flags() & kGlossy))) {
-      sum += throughput * gather(at, bsdf);
+      path.radiance += path.throughput * gather(at, bsdf);
       break;
     }
-    if (last) break;
     stream.setDimension(forDirection);
-    const Vec2 u = stream.next2D();
-    const auto s = bsdf.sample(at.wo, stream.next1D(), u);
-    if (!s || !(s->pdf > 0)) break;
-    throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
-    if (throughput.isBlack()) break;
-    specular = s->isSpecular();
-    ray.o = offsetRayOrigin(at.p, at.pError, at.n, s->wi);
-    ray.d = s->wi;
-    ray.tMax = kInfinity;
-    ++depth;
-    interfaces = 0;
+    if (last || !scatter(path, at, bsdf, stream)) break;
   }
-  return sum;
+  return path.radiance;
 }
 
 class SppmIntegrator final : public Integrator {

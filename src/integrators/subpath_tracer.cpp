@@ -3,12 +3,11 @@
 // refraction, and the other cosine of shading normals (Veach 1997, §5.2, 5.3).
 #include "integrators/subpath_tracer.h"
 
+#include "integrators/ray_surface.h"
+
 namespace lampyris {
 
 namespace {
-
-/// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
-constexpr int kMaxInterfaces = 1000;
 
 /// Factor of the throughput for light that comes from `in` and leaves towards `out`, drawn with
 /// `pdf`, but for f: sides by the geometric normal, which densities know, cosines by the shading
@@ -133,11 +132,7 @@ bool SubpathTracer::advance(Walk& walk) const {
   }
   const Primitive& primitive = geometry.primitive(*hit);
   const Material* const material = primitive.material;
-  const bool footprint = walk.differential && material && material->wantsDifferentials();
-  const SurfaceInteraction at = geometry.surface(walk.ray, *hit,
-                                                 footprint  ? SurfaceDetail::Full
-                                                 : material ? material->detail()
-                                                            : SurfaceDetail::Basic);
+  const SurfaceInteraction at = surfaceAt(geometry, walk.ray, *hit, walk.differential);
   if (primitive.light && !walk.fromLight) foundAtHit(walk, at);
   if (!material) {
     walk.differential = nullptr;
@@ -152,7 +147,6 @@ bool SubpathTracer::advance(Walk& walk) const {
   v.connectible = true;
   v.light = kNoLight;
   v.at = at;
-  if (footprint) v.at.computeDifferentials(*walk.differential);
   v.throughput = walk.throughput;
   v.forward = densityAt(v, before, walk.pdf);
   v.reverse = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/transmittance.h"
 
+#include "integrators/ray_surface.h"
+
 namespace lampyris {
 
 Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,

@@ -18,7 +18,4 @@ inline const Medium* mediumBeyond(const Primitive& primitive, const Medium* curr
 Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
                   RayCounts& rays);
 
-/// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
-inline constexpr int kMaxInterfaces = 1000;
-
 }  // namespace lampyris

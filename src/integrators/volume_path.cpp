@@ -9,6 +9,7 @@
 #include "integrators/aov_surface.h"
 #include "integrators/direction_mixture.h"
 #include "integrators/light_connection.h"
+#include "integrators/ray_surface.h"
 #include "integrators/subsurface.h"
 #include "integrators/transmittance.h"
 
@@ -159,11 +160,7 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
   const bool last = path.bounces >= settings_.maxDepth;
   if (last && !primitive.light && primitive.material) return false;
   const Material* material = primitive.material;
-  const bool footprint = path.differential && material && material->wantsDifferentials();
-  SurfaceInteraction at = scene_.geometry->surface(path.ray, hit,
-                                                   footprint  ? SurfaceDetail::Full
-                                                   : material ? material->detail()
-                                                              : SurfaceDetail::Basic);
+  SurfaceInteraction at = surfaceAt(*scene_.geometry, path.ray, hit, path.differential);
   if (primitive.light)
     addEmission(path, path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
                                    : primitive.light->emitted(at, at.wo));
@@ -175,7 +172,6 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
     return true;
   }
   if (last || !survives(path)) return false;
-  if (footprint) at.computeDifferentials(*path.differential);
   material->evaluate(at, path.state.bsdf);
   if (path.state.bsdf.empty()) return false;
   path.surface = &primitive;
