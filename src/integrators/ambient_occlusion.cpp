@@ -5,6 +5,7 @@
 #include "core/frame.h"
 #include "core/sampling.h"
 #include "integrators/aov_surface.h"
+#include "integrators/common_parameters.h"
 #include "integrators/ray_surface.h"
 #include "integrators/render_loop.h"
 
@@ -21,7 +22,7 @@ struct AmbientOcclusionParameters {
     d.add("cossample", cosineSampled,
           "Whether directions are drawn by the cosine (less noise) or uniformly.");
     d.add("nsamples", samples, "Rays from each point that is seen.").range(1, 1e6);
-    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+    declarePixelBounds(d, pixelBounds);
   }
 };
 

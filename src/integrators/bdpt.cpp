@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/bidirectional.h"
+#include "integrators/common_parameters.h"
 
 namespace lampyris {
 
@@ -13,12 +14,11 @@ struct BdptParameters {
   void declare(Declaration& d) {
     // Every pair of vertices is connected: more bounces than this would never end.
     d.add("maxdepth", maxDepth, "Longest path, in bounces.").range(0, 1000);
-    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
-    d.add("lightsampler", lightSampler,
-          "Which light to sample at a vertex of the camera's path; see kind lightsampler. Paths "
-          "from lights start by power.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declarePixelBounds(d, pixelBounds);
+    declareLightSampler(
+        d, lightSampler,
+        "Which light to sample at a vertex of the camera's path; see kind lightsampler. Paths "
+        "from lights start by power.");
     for (const char* name : {"visualizestrategies", "visualizeweights"})
       d.ignored(name, "no images of single strategies are written");
   }

@@ -9,6 +9,7 @@
 
 #include "integrators/adaptive_direct.h"
 #include "integrators/aov_surface.h"
+#include "integrators/common_parameters.h"
 #include "integrators/ray_surface.h"
 
 namespace lampyris {
@@ -33,11 +34,10 @@ struct DirectLightingParameters {
           "BSDF there are worth.")
         .oneOf({"all", "one", "adaptive"});
     settings.declare(d);
-    d.add("lightsampler", lightSampler,
-          "Strategy \"one\": which light to sample at a point; see kind lightsampler. Strategy "
-          "\"adaptive\" takes \"brdf\" alone.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declareLightSampler(
+        d, lightSampler,
+        "Strategy \"one\": which light to sample at a point; see kind lightsampler. Strategy "
+        "\"adaptive\" takes \"brdf\" alone.");
     adaptive.declare(d);
   }
 };
@@ -242,7 +242,7 @@ std::unique_ptr<Integrator> create(const DirectLightingParameters& p,
 
 void DirectLightingSettings::declare(Declaration& d) {
   d.add("maxdepth", maxDepth, "How many specular surfaces a path may meet.").range(0, 1e6);
-  d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+  declarePixelBounds(d, pixelBounds);
 }
 
 std::unique_ptr<Integrator> makeDirectLightingIntegrator(

@@ -6,6 +6,7 @@
 #include "integrators/guided_path.h"
 
 #include "guiding/guides.h"
+#include "integrators/common_parameters.h"
 
 namespace lampyris {
 
@@ -24,9 +25,7 @@ struct GuidedPathParameters {
 
   void declare(Declaration& d) {
     settings.declare(d);
-    d.add("lightsampler", lightSampler, "Which light to sample at a point; see kind lightsampler.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declareLightSampler(d, lightSampler);
     guide.declare(d);
     d.add("bsdffraction", ownShare,
           "Share of directions drawn from the BSDF or phase function where there is a guide.")

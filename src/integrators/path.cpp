@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "integrators/common_parameters.h"
 #include "integrators/path_integrator.h"
 
 namespace lampyris {
@@ -21,11 +22,10 @@ struct PathParameters {
           "sample of each kind.")
         .range(0, 1e6);
     settings.adaptiveSettings.declare(d);
-    d.add("lightsampler", lightSampler,
-          "Which light to sample at a point; see kind lightsampler. Strategy \"adaptive\" takes "
-          "\"brdf\" alone.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declareLightSampler(
+        d, lightSampler,
+        "Which light to sample at a point; see kind lightsampler. Strategy \"adaptive\" takes "
+        "\"brdf\" alone.");
   }
 };
 

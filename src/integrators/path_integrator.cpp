@@ -6,6 +6,7 @@
 #include "integrators/path_integrator.h"
 
 #include "integrators/aov_surface.h"
+#include "integrators/common_parameters.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/subsurface.h"
 
@@ -264,7 +265,7 @@ void PathSettings::declare(Declaration& d) {
   d.add("rrthreshold", rrThreshold,
         "From the fifth bounce on, paths whose throughput is below this end at random.")
       .atLeast(0);
-  d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+  declarePixelBounds(d, pixelBounds);
 }
 
 std::unique_ptr<Integrator> makePathIntegrator(const PathSettings& settings,

@@ -12,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "integrators/aov_surface.h"
+#include "integrators/common_parameters.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/photon_map.h"
 #include "integrators/ray_surface.h"
@@ -42,11 +43,10 @@ struct SppmParameters {
         .range(-1, 2e7);
     d.add("radius", radius, "Distance within which the first iteration gathers photons.")
         .range(1e-15, 1e15);
-    d.add("pixelbounds", pixelBounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
-    d.add("lightsampler", lightSampler,
-          "Which light to sample at a point; see kind lightsampler. Photons start by power.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declarePixelBounds(d, pixelBounds);
+    declareLightSampler(
+        d, lightSampler,
+        "Which light to sample at a point; see kind lightsampler. Photons start by power.");
     d.ignored("imagewritefrequency", "images are written between passes, as for any integrator");
   }
 };

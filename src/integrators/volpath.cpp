@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "integrators/common_parameters.h"
 #include "integrators/volume_path.h"
 
 namespace lampyris {
@@ -11,9 +12,7 @@ struct VolpathParameters {
 
   void declare(Declaration& d) {
     settings.declare(d);
-    d.add("lightsampler", lightSampler, "Which light to sample at a point; see kind lightsampler.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declareLightSampler(d, lightSampler);
   }
 };
 
