@@ -9,10 +9,14 @@ die() {
   exit 3
 }
 
-# Packages of packages.txt that are not installed.
+# Files that list packages; callers may add to it.
+package_lists=$root/packages.txt
+
+# Packages of the lists that are not installed.
 missing_packages() {
   command -v dpkg-query >/dev/null || return 0
-  for package in $(sed 's/#.*//' "$root/packages.txt"); do
+  # shellcheck disable=SC2086
+  for package in $(sed 's/#.*//' $package_lists); do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
       printf '%s ' "$package"
   done

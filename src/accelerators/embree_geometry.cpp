@@ -235,8 +235,8 @@ GeometryHandle EmbreeGeometry::stillInstance(const ObjectInstance& instance, RTC
 GeometryHandle EmbreeGeometry::movingInstance(const ObjectInstance& instance, RTCScene object,
                                               unsigned id) {
   GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
-  embree::setMovingInstance(geometry.get(),
-                            moving_.emplace_back(&instance, object, id, kEmbreeLimit));
+  embree::setMovingInstance(geometry.get(), moving_.emplace_back(embree::MovingInstance{
+                                                &instance, object, id, kEmbreeLimit}));
   return geometry;
 }
 

@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "core/atomic_file.h"
+#include "core/exr_header.h"
 #include "core/image_formats.h"
 #include "core/image_layers.h"
 #include "core/source.h"
@@ -126,6 +127,7 @@ std::vector<std::string> layerChannels(const std::string& path, const Imf::Chann
 template <class F>
 auto withExrFile(const std::string& path, std::string_view bytes, F&& f) {
   try {
+    checkExrHeaders(path, bytes);
     ByteStream stream(path.c_str(), bytes);
     Imf::InputFile file(stream, 0);
     return f(file);

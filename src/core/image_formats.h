@@ -13,6 +13,12 @@ namespace lampyris {
 
 /// Readers refuse images of more pixels: a damaged header must not claim all memory.
 inline constexpr int64_t kMaxImagePixels = int64_t{1} << 28;
+/// And of more than a byte of the file can stand for: deflate shrinks to 1/1032 at most, a pixel of
+/// a PNG has a bit at least; the other formats of stb pack less.
+inline constexpr int64_t kMaxPixelsPerByte = 1032 * 8;
+/// The same for EXR, in bytes of unpacked pixels: its DWAB deflates one byte or two for each 64
+/// values.
+inline constexpr int64_t kMaxExrRatio = 1 << 17;
 
 /// Throws IoError: `cannot read image "path": why`.
 [[noreturn]] void failImageRead(const std::string& path, const std::string& why);

@@ -173,8 +173,6 @@ LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   if (!stbi_info_from_memory(memory, size, &width, &height, &channels))
     failImageRead(path, "this is no PNG, JPG, TGA, BMP or HDR image, or it is damaged");
   checkImageSize(path, width, height);
-  // Deflate shrinks to 1/1032 at most, a pixel has a bit at least; the other formats pack less.
-  constexpr int64_t kMaxPixelsPerByte = 1032 * 8;
   if (int64_t{width} * height > kMaxPixelsPerByte * size)
     failImageRead(path, "the file is truncated, or its size is wrong");
 

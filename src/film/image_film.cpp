@@ -3,7 +3,6 @@
 // (base/filter.h), so a sample touches one pixel and no locks are needed.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "base/film.h"
 #include "core/image.h"
 #include "core/math.h"
+#include "core/memory.h"
 #include "film/aov_sums.h"
 #include "film/light_image.h"
 #include "film/pixel_sums.h"
@@ -263,9 +263,7 @@ AovSet aovSet(const std::vector<std::string>& lists, SourceLocation where) {
 void checkMemory(const PixelBounds& bounds, AovSet aovs, SourceLocation where) {
   const size_t pixelBytes = sizeof(PixelSums) + AovSums::sumsPerPixel(aovs) * sizeof(double);
   const double bytes = static_cast<double>(bounds.area()) * static_cast<double>(pixelBytes);
-  const double installed =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (installed > 0 && bytes > installed)
+  if (bytes > availableMemory())
     throw SceneError(where, fmt::format("{} x {} pixels need {:.0f} GB of memory, more than there "
                                         "is; render a smaller image or crop window",
                                         bounds.size().x, bounds.size().y, bytes * 1e-9));

@@ -6,10 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "core/error.h"
+#include "core/source.h"
 #include "materials/root.h"
 
 namespace lampyris {
@@ -21,22 +20,17 @@ static_assert(std::endian::native == std::endian::little, "the format's byte ord
 /// A file's numbers one after the other; nothing is allocated that the file does not hold.
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), stream_(path, std::ios::binary) {
-    std::error_code error;
-    left_ = std::filesystem::file_size(path, error);
-    if (error || !stream_) throw IoError(fmt::format("cannot read \"{}\"", path));
-  }
+  Reader(const std::string& path, std::string_view bytes) : path_(path), rest_(bytes) {}
   [[noreturn]] void fail(const std::string& what) const {
     throw IoError(fmt::format("\"{}\" is no BSDF file that can be used: {}", path_, what));
   }
   template <class T>
   std::vector<T> list(size_t count) {
-    if (count > left_ / sizeof(T))
-      fail(fmt::format("it ends too early ({} bytes left of {} numbers)", left_, count));
+    if (count > rest_.size() / sizeof(T))
+      fail(fmt::format("it ends too early ({} bytes left of {} numbers)", rest_.size(), count));
     std::vector<T> all(count);
-    const auto bytes = static_cast<std::streamsize>(count * sizeof(T));
-    if (!stream_.read(reinterpret_cast<char*>(all.data()), bytes)) fail("it cannot be read");
-    left_ -= count * sizeof(T);
+    std::memcpy(all.data(), rest_.data(), count * sizeof(T));
+    rest_.remove_prefix(count * sizeof(T));
     return all;
   }
   template <class T>
@@ -58,16 +52,17 @@ class Reader {
 
  private:
   const std::string& path_;
-  std::ifstream stream_;
-  uintmax_t left_ = 0;
+  std::string_view rest_;
 };
 
 }  // namespace
 
-FourierTable::FourierTable(const std::string& path) {
+FourierTable::FourierTable(const std::string& path) : FourierTable(path, MappedFile(path).text()) {}
+
+FourierTable::FourierTable(const std::string& path, std::string_view bytes) {
   constexpr char kMagic[] = "SCATFUN\1";
   constexpr int32_t kMostNodes = 1 << 14, kMostNumbers = std::numeric_limits<int32_t>::max();
-  Reader in(path);
+  Reader in(path, bytes);
   if (std::memcmp(in.list<char>(8).data(), kMagic, 8) != 0) in.fail("it does not begin as one");
   const auto flags = in.one<int32_t>();
   const size_t n = in.count("elevations", kMostNodes);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/rgb.h"
@@ -23,6 +24,8 @@ class FourierTable {
   /// Throws IoError on a file that cannot be read, is damaged, or has more than this reader knows
   /// (textured or other than one or three channels).
   explicit FourierTable(const std::string& path);
+  /// The same of the file's contents; `path` is its name for messages.
+  FourierTable(const std::string& path, std::string_view bytes);
 
   float eta() const { return eta_; }
   bool isColored() const { return channels_ == 3; }

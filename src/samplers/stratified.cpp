@@ -23,7 +23,7 @@ struct StratifiedParameters {
 /// A permutation of [0, count) chosen by `key`: a bijection of the next power of two, repeated
 /// until it falls below `count` (cycle walking, Black and Rogaway 2002), < 2 rounds on average.
 uint32_t permute(uint32_t i, uint32_t count, uint64_t key) {
-  const int bits = std::bit_width(count - 1);
+  const auto bits = static_cast<int>(std::bit_width(count - 1));
   if (bits == 0) return 0;
   const uint32_t mask = static_cast<uint32_t>((uint64_t{1} << bits) - 1);
   const int shift = (bits + 1) / 2;

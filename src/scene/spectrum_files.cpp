@@ -16,7 +16,9 @@ bool isInFile(const Parameter& p) {
   return p.type == ParameterType::Spectrum && !p.strings.empty();
 }
 
-std::vector<float> readPairs(SourceFiles& files, uint16_t file) {
+}  // namespace
+
+std::vector<float> readSpectrum(const SourceFiles& files, uint16_t file) {
   std::vector<float> values;
   Tokenizer in(files.text(file), file);
   for (TokenKind kind = in.peek(); kind != TokenKind::End; kind = in.peek()) {
@@ -31,8 +33,6 @@ std::vector<float> readPairs(SourceFiles& files, uint16_t file) {
                                  values.size()));
   return values;
 }
-
-}  // namespace
 
 ParameterSet SpectrumFiles::resolve(const ParameterSet& set) {
   if (std::none_of(set.parameters.begin(), set.parameters.end(), isInFile)) return set;
@@ -62,7 +62,7 @@ const std::vector<float>& SpectrumFiles::pairs(const Parameter& p) {
   } catch (const IoError& e) {
     throw SceneError(p.location, fmt::format("parameter \"{}\": {}", p.name, e.what()));
   }
-  return byPath_.emplace(path, readPairs(files_, file)).first->second;
+  return byPath_.emplace(path, readSpectrum(files_, file)).first->second;
 }
 
 }  // namespace lampyris

@@ -12,6 +12,9 @@
 
 namespace lampyris {
 
+/// The wavelength (nm), value pairs of a loaded text file; # begins a comment. Throws SceneError.
+std::vector<float> readSpectrum(const SourceFiles& files, uint16_t file);
+
 /// Reads text files of wavelength (nm), value pairs (# begins a comment), each once. Not
 /// thread-safe, for SourceFiles is not.
 class SpectrumFiles {

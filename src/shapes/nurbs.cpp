@@ -60,7 +60,7 @@ struct Basis {
 class Axis {
  public:
   Axis(const AxisParameters& p, const char* name, const ShapeContext& context)
-      : p_(p), name_(name), location_(context.location) {
+      : p_(p), location_(context.location) {
     if (p.count < 2 || p.order < 2)
       fail(fmt::format("\"integer n{0}\" and \"integer {0}order\" are missing", name));
     if (p.count < p.order)
@@ -120,7 +120,6 @@ class Axis {
   }
 
   const AxisParameters& p_;
-  const char* name_;
   SourceLocation location_;
   float begin_ = 0, end_ = 1;
 };

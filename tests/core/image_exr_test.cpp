@@ -175,6 +175,34 @@ TEST(ExrImage, UnsupportedChannelsAreErrors) {
   EXPECT_EQ(readImageFile(folder / "a.exr").image.rgb(1, 0), Rgb(1, 0, 0));
 }
 
+/// A header of one attribute more, of `size` bytes as it says itself, and a data window.
+std::string header(const std::string& type, int32_t size, const std::string& value, int32_t width) {
+  const auto integer = [](int32_t v) { return std::string(reinterpret_cast<const char*>(&v), 4); };
+  const std::string zero(1, '\0');
+  return "\x76\x2f\x31\x01" + integer(2) + "channels" + zero + "chlist" + zero + integer(19) + "R" +
+         zero + integer(2) + integer(0) + integer(1) + integer(1) + zero + "dataWindow" + zero +
+         "box2i" + zero + integer(16) + integer(0) + integer(0) + integer(width - 1) + integer(9) +
+         "extra" + zero + type + zero + integer(size) + value + zero;
+}
+
+TEST(ExrImage, HeadersThatAskForMoreThanTheFileIsWorthAreErrors) {
+  const TemporaryFolder folder;
+  const auto errorOf = [&](const std::string& bytes) {
+    writeBytes(folder / "a.exr", bytes);
+    return ioErrorOf([&] { readImageFile(folder / "a.exr"); });
+  };
+  const std::string huge("\xff\xff\xff\x7f\xff\xff\xff\x7f");
+  for (const char* type : {"nonsense", "string", "preview", "stringvector"})
+    EXPECT_NE(errorOf(header(type, 1'936'286'720, "", 8)).find("header is damaged"),
+              std::string::npos)
+        << type;
+  for (const char* type : {"preview", "stringvector", "float", "v3f", "chlist", "idmanifest"})
+    EXPECT_NE(errorOf(header(type, 8, huge, 8)).find("header is damaged"), std::string::npos)
+        << type;
+  EXPECT_NE(errorOf(header("int", 4, "1234", 100'000)).find("size is wrong"), std::string::npos);
+  EXPECT_NE(errorOf(header("int", 4, "1234", 8)), "");
+}
+
 TEST(ExrImage, UnfinishedFilesAreErrors) {
   const TemporaryFolder folder;
   {
