@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/checkpoint.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/source.h"
@@ -30,16 +26,6 @@ uint64_t hashOf(std::string_view bytes) {
   return f.value();
 }
 
-void writeAll(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0)
-      throw IoError(fmt::format("cannot write checkpoint \"{}\": {}", path, std::strerror(errno)));
-    bytes.remove_prefix(static_cast<size_t>(n));
-  }
-}
-
 }  // namespace
 
 void Fingerprint::add(uint64_t word) { hash_ = hashCombine(hash_, word); }
@@ -56,31 +42,12 @@ void Fingerprint::add(std::string_view bytes) {
 }
 
 void writeCheckpoint(const std::string& path, const Checkpoint& c) {
-  const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0)
-    throw IoError(fmt::format("cannot write checkpoint \"{}\": {}", path, std::strerror(errno)));
   const Header header{c.fingerprint, c.nextSample, c.film.size(), hashOf(c.film)};
-  std::array<char, sizeof header> bytes;
-  std::memcpy(bytes.data(), &header, sizeof header);
-  try {
-    writeAll(fd, kMagic, path);
-    writeAll(fd, {bytes.data(), bytes.size()}, path);
-    writeAll(fd, c.film, path);
-    // On disk before it takes the old one's name.
-    if (::fsync(fd) != 0 && errno != EINVAL)
-      throw IoError(fmt::format("cannot write checkpoint \"{}\": {}", path, std::strerror(errno)));
-  } catch (...) {
-    ::close(fd);
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  ::close(fd);
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    throw IoError(fmt::format("cannot write checkpoint \"{}\": {}", path, std::strerror(error)));
-  }
+  AtomicFile file(path);
+  file.write(kMagic.data(), kMagic.size());
+  file.write(&header, sizeof header);
+  file.write(c.film.data(), c.film.size());
+  file.commit();
 }
 
 Checkpoint readCheckpoint(const std::string& path) {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "tools/commands.h"
+#include "tools/messages.h"
 
 namespace lampyris {
 
@@ -36,7 +37,7 @@ int run(Arguments arguments) {
 }
 
 int fail(int code, std::string_view message) {
-  fmt::print(stderr, "lampyris: error: {}\n", message);
+  say("lampyris: error: {}\n", message);
   return code;
 }
 

@@ -21,6 +21,9 @@ void onSignal(int) {
 }  // namespace
 
 const std::atomic<bool>& interruptFlag() {
+  // Errors of writing, as any other: a file that grows beyond a limit, a reader that has gone.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;

@@ -9,6 +9,7 @@
 #include "tools/commands.h"
 #include "tools/light_report.h"
 #include "tools/light_tree_svg.h"
+#include "tools/messages.h"
 
 namespace lampyris {
 
@@ -71,12 +72,12 @@ int runLights(const Arguments& arguments) {
   if (!s.out.empty() && !s.out.ends_with(".svg"))
     throw UsageError(fmt::format("--out: expected a name that ends in .svg, got \"{}\"", s.out));
   SourceFiles files;
-  Diagnostics diagnostics(files, [](const std::string& text) { fmt::print(stderr, "{}\n", text); });
+  Diagnostics diagnostics(files, [](const std::string& text) { say("{}\n", text); });
   try {
     report(s, files, diagnostics);
     return kDone;
   } catch (const SceneError& e) {
-    fmt::print(stderr, "{}\n", formatMessage(files, e.location, "error", e.what()));
+    say("{}\n", formatMessage(files, e.location, "error", e.what()));
     return kSceneError;
   }
 }

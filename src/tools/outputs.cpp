@@ -2,12 +2,14 @@
 #include "tools/outputs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "tools/arguments.h"
@@ -33,9 +35,27 @@ void checkWritable(const std::string& path, bool fromScene) {
   if (!fs::is_directory(folder, error))
     throw IoError(fmt::format("cannot write \"{}\": the folder \"{}\" does not exist", path,
                               folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    throw IoError(fmt::format("cannot write \"{}\": no permission to write into \"{}\"", path,
-                              folder.string()));
+  // Whether a file can be made is best told by making one.
+  const AtomicFile probe(path);
+}
+
+/// Saves elsewhere what `path` did not take; says where.
+std::string rescue(const std::string& path, const Film& film, const ImageMetadata& metadata) {
+  const fs::path name(path);
+  std::error_code error;
+  for (const fs::path& folder :
+       {fs::current_path(error), fs::temp_directory_path(error), fs::path("/dev/shm")}) {
+    if (folder.empty() || fs::equivalent(folder, fs::absolute(name).parent_path(), error)) continue;
+    const std::string elsewhere = folder / fmt::format("{}-rescued-{}{}", name.stem().string(),
+                                                       getpid(), name.extension().string());
+    try {
+      film.write(elsewhere, metadata);
+      return fmt::format("the image was saved as \"{}\"", elsewhere);
+    } catch (const IoError&) {
+      continue;
+    }
+  }
+  return "nor could it be saved in another folder";
 }
 
 }  // namespace
@@ -56,16 +76,26 @@ bool Outputs::takesLayers() const {
 }
 
 void Outputs::write(const Film& film, const ImageMetadata& metadata) const {
-  for (const std::string& p : paths_) film.write(p, metadata);
+  std::vector<std::string> failures;
+  for (const std::string& p : paths_) {
+    try {
+      film.write(p, metadata);
+    } catch (const IoError& e) {
+      failures.push_back(fmt::format("{}; {}", e.what(), rescue(p, film, metadata)));
+    }
+  }
+  if (!failures.empty()) throw IoError(fmt::format("{}", fmt::join(failures, "\n")));
 }
 
 void Outputs::writePartial(const Film& film, const ImageMetadata& metadata, double seconds) {
   if (seconds < next_) return;
+  interval_ *= 1.5;
+  next_ = seconds + interval_;
   const auto before = std::chrono::steady_clock::now();
-  write(film, metadata);
+  for (const std::string& p : paths_) film.write(p, metadata);
   const double cost =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  interval_ = std::max(interval_ * 1.5, cost / kLargestShare);
+  interval_ = std::max(interval_, cost / kLargestShare);
   next_ = seconds + cost + interval_;
 }
 

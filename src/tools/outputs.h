@@ -20,8 +20,12 @@ class Outputs {
   const std::vector<std::string>& paths() const { return paths_; }
   /// Whether any of the files can hold layers (EXR).
   bool takesLayers() const;
+  /// Writes all files. An image that cannot be written where it should is saved in the current
+  /// folder, that of temporary files or /dev/shm, whichever takes it first; the IoError which is
+  /// thrown in the end says why and where.
   void write(const Film& film, const ImageMetadata& metadata) const;
   /// Writes an image of what there is now and then: rarely enough to cost under 2 % of the time.
+  /// Throws IoError; further calls try again.
   void writePartial(const Film& film, const ImageMetadata& metadata, double seconds);
 
  private:

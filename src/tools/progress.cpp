@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/messages.h"
+
 namespace lampyris {
 
 std::string formatDuration(double seconds) {
@@ -68,16 +70,16 @@ void ProgressLine::update(const RenderProgress& p) {
   if (!due(p)) return;
   // The escape sequence erases what an older, longer line left.
   if (terminal_)
-    fmt::print(stderr, "\r{}\x1b[K", text(p));
+    say("\r{}\x1b[K", text(p));
   else
-    fmt::print(stderr, "{}\n", text(p));
+    say("{}\n", text(p));
   std::fflush(stderr);
   shown_ = terminal_;
 }
 
 void ProgressLine::clear() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  say("\r\x1b[K");
   std::fflush(stderr);
   shown_ = false;
 }

@@ -12,6 +12,7 @@
 #include "tools/checkpoint.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
+#include "tools/messages.h"
 #include "tools/outputs.h"
 #include "tools/pixel_probe.h"
 #include "tools/progress.h"
@@ -33,7 +34,7 @@ class RenderSession {
       : settings_(settings),
         scene_(std::move(scene)),
         diagnostics_(files_, [this](const std::string& text) {
-          if (!settings_.quiet) fmt::print(stderr, "{}\n", text);
+          if (!settings_.quiet) say("{}\n", text);
         }) {}
 
   /// Prints scene errors itself, since only it can tell their places; returns the exit code.
@@ -49,6 +50,7 @@ class RenderSession {
   void renderPixel();
   void passDone(const RenderProgress& progress);
   void saveCheckpoint(uint64_t nextSample);
+  void attempt(const std::function<void()>& save);
   uint64_t render(Film& film, const RenderOptions& options);
   ImageMetadata metadata(double samples) const;
   void takeSnapshot(size_t number, const std::string& output, const RenderProgress& progress);
@@ -134,6 +136,15 @@ void RenderSession::saveCheckpoint(uint64_t nextSample) {
   writeCheckpoint(settings_.checkpoint, {fingerprint_, nextSample, job_->film->save()});
 }
 
+/// What cannot be written while the render goes on is left for the next time.
+void RenderSession::attempt(const std::function<void()>& save) {
+  try {
+    save();
+  } catch (const IoError& e) {
+    diagnostics_.warn({}, fmt::format("{}; the render goes on", e.what()));
+  }
+}
+
 uint64_t RenderSession::render(Film& film, const RenderOptions& options) {
   RenderContext context{job_->scene, *job_->camera, *job_->sampler, film, options, statistics_};
   const uint64_t samples = job_->integrator->render(context);
@@ -146,8 +157,10 @@ void RenderSession::takeSnapshot(size_t number, const std::string& output,
                                  const RenderProgress& progress) {
   const std::string& name = settings_.snapshots[number].name;
   const std::string file = snapshotPath(output, name);
-  job_->film->write(file, metadata(progress.meanSamples));
-  report_.snapshots.push_back({name, progress.seconds, progress.meanSamples, file});
+  attempt([&] {
+    job_->film->write(file, metadata(progress.meanSamples));
+    report_.snapshots.push_back({name, progress.seconds, progress.meanSamples, file});
+  });
 }
 
 void RenderSession::warnOfMissedSnapshots() {
@@ -169,19 +182,20 @@ void RenderSession::renderImage(const Outputs& initial) {
     if (line.wantsNoise(p.seconds)) line.setNoise(job_->film->noise(), p.seconds);
     line.update(p);
     if (p.seconds - lastCheckpoint_ >= settings_.checkpointInterval) {
-      saveCheckpoint(p.samplesDone);
       lastCheckpoint_ = p.seconds;
+      attempt([&] { saveCheckpoint(p.samplesDone); });
     }
-    outputs.writePartial(*job_->film, metadata(p.meanSamples), p.seconds);
+    attempt([&] { outputs.writePartial(*job_->film, metadata(p.meanSamples), p.seconds); });
   };
   options.onStop = [&](size_t number, const RenderProgress& p) {
     takeSnapshot(number, outputs.paths().front(), p);
   };
   const uint64_t samples = render(*job_->film, options);
   line.clear();
-  saveCheckpoint(samples);
   warnOfMissedSnapshots();
+  // The image first: it can be had without the checkpoint, but not the other way round.
   outputs.write(*job_->film, metadata(statistics_.value("render", "samples per pixel")));
+  saveCheckpoint(samples);
   report_.noise = job_->film->noise();
 }
 
@@ -216,16 +230,14 @@ int RenderSession::run() {
       if (!settings_.checkpoint.empty()) fingerprint_ = fingerprint();
       if (!settings_.resume.empty()) resume();
       renderImage(outputs);
-      if (!settings_.quiet)
-        fmt::print(stderr, "{}: {}\n", scene_, fmt::join(outputs.paths(), ", "));
+      if (!settings_.quiet) say("{}: {}\n", scene_, fmt::join(outputs.paths(), ", "));
     }
     report_.warnings = diagnostics_.warnings();
-    if (!settings_.quiet)
-      fmt::print(stderr, "{}", summary(report_, statistics_, settings_.verbose));
+    if (!settings_.quiet) say("{}", summary(report_, statistics_, settings_.verbose));
     if (!settings_.statistics.empty()) writeStatistics(settings_.statistics, report_, statistics_);
     return report_.interrupted ? kInterrupted : kDone;
   } catch (const SceneError& e) {
-    fmt::print(stderr, "{}\n", formatMessage(files_, e.location, "error", e.what()));
+    say("{}\n", formatMessage(files_, e.location, "error", e.what()));
     return kSceneError;
   }
 }

@@ -45,10 +45,11 @@ class CommandTest : public ::testing::Test {
   std::string read(const std::string& name) const { return readText(folder_ / name); }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
-  /// `arguments` as the shell reads them.
-  CommandResult run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" LAMPYRIS_BINARY "' " +
-                                arguments + " >stdout.txt 2>stderr.txt";
+  /// `arguments` as the shell reads them, after the commands of `setUp`.
+  CommandResult run(const std::string& arguments, const std::string& setUp = ":") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + setUp +
+                                " && '" LAMPYRIS_BINARY "' " + arguments +
+                                " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
   }
