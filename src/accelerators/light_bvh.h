@@ -14,6 +14,7 @@
 
 #include "accelerators/light_bvh_importance.h"
 #include "accelerators/light_bvh_node.h"
+#include "core/huge_pages.h"
 
 namespace lampyris {
 
@@ -55,7 +56,9 @@ class LightBVHAccel {
   float rootImportance(const LightReceiver& at) const;
 
   /// Depth first, see LinearLightBVHNode; empty or 2n − 1 of them.
-  const std::vector<LinearLightBVHNode>& nodes() const { return nodes_; }
+  const HugeVector<LinearLightBVHNode>& nodes() const { return nodes_; }
+  /// One more than the largest id of all lights, dropped ones as well.
+  size_t idCount() const { return leafOf_.size(); }
   static constexpr uint32_t kNoLeaf = ~uint32_t{0};
   /// The light's node; kNoLeaf if it was dropped.
   uint32_t leafOf(LightId light) const { return light < leafOf_.size() ? leafOf_[light] : kNoLeaf; }
@@ -67,7 +70,7 @@ class LightBVHAccel {
   const Stats& stats() const { return stats_; }
 
  private:
-  std::vector<LinearLightBVHNode> nodes_;
+  HugeVector<LinearLightBVHNode> nodes_;
   std::vector<uint32_t> leafOf_;  ///< per light id
   Stats stats_;
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "accelerators/light_bvh_node.h"
+#include "core/huge_pages.h"
 
 namespace lampyris {
 
@@ -21,7 +22,7 @@ struct LightBVHInput;
 
 /// Fills `nodes` depth first and sets leafOf[id] of each light that is in the tree. Returns the
 /// number of levels.
-uint32_t buildLightBVH(std::span<const LightBVHInput> lights,
-                       std::vector<LinearLightBVHNode>& nodes, std::vector<uint32_t>& leafOf);
+uint32_t buildLightBVH(std::span<const LightBVHInput> lights, HugeVector<LinearLightBVHNode>& nodes,
+                       std::vector<uint32_t>& leafOf);
 
 }  // namespace lampyris

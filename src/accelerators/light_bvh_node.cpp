@@ -20,10 +20,9 @@ uint16_t packUp(float v) {
   return static_cast<uint16_t>((std::bit_cast<uint32_t>(v) + 0xffff) >> 16);
 }
 
-/// sin(θ/2) in units of 1/max, rounded up.
-uint32_t packHalfSine(double theta, uint32_t max) {
-  const double h = std::sin(0.5 * std::clamp(theta, 0., kPiD));
-  const double scaled = std::ceil(h * static_cast<double>(max) - 1e-9);
+/// sin(θ/2), in units of 1/max, rounded up.
+uint32_t packHalfSine(double halfSine, uint32_t max) {
+  const double scaled = std::ceil(halfSine * static_cast<double>(max) - 1e-9);
   return std::min(static_cast<uint32_t>(scaled), max);
 }
 
@@ -48,12 +47,13 @@ uint32_t packAxis(const Vec3& a, uint32_t max) {
 EmissionCone EmissionCone::of(const LightBounds& bounds) {
   EmissionCone c;
   c.axis = normalize(bounds.axis);
-  c.thetaO = std::acos(std::clamp(static_cast<double>(bounds.cosThetaO), -1., 1.));
-  c.thetaE = std::acos(std::clamp(static_cast<double>(bounds.cosThetaE), -1., 1.));
+  c.thetaO =
+      bounds.cosThetaO > -1 ? std::acos(std::min(static_cast<double>(bounds.cosThetaO), 1.)) : kPiD;
+  c.cosThetaE = std::clamp(static_cast<double>(bounds.cosThetaE), -1., 1.);
   c.twoSided = bounds.twoSided;
   // Unknown is everything.
-  if (c.axis == Vec3(0) || !(c.thetaO >= 0)) c.axis = {0, 0, 1}, c.thetaO = kPiD;
-  if (!(c.thetaE >= 0)) c.thetaE = kPiD;
+  if (c.axis == Vec3(0)) c.axis = {0, 0, 1}, c.thetaO = kPiD;
+  if (!(c.cosThetaE >= -1)) c.cosThetaE = -1;
   return c;
 }
 
@@ -70,7 +70,7 @@ double EmissionCone::peakFactor() const {
 
 double EmissionCone::meanFactor() const {
   if (isFull()) return 1;
-  const double reach = thetaO + thetaE;
+  const double reach = thetaO + std::acos(cosThetaE);
   // Within a narrow cone the factor is hardly less than at the axis.
   const double ofOneSide =
       reach < 0.5 * kPiD ? std::max(peakFactor() * sqr(std::sin(reach)), 1e-6) : 1;
@@ -80,7 +80,7 @@ double EmissionCone::meanFactor() const {
 EmissionCone merge(const EmissionCone& a, const EmissionCone& b) {
   EmissionCone out;
   out.twoSided = a.twoSided || b.twoSided;
-  out.thetaE = std::max(a.thetaE, b.thetaE);
+  out.cosThetaE = std::min(a.cosThetaE, b.cosThetaE);
   out.thetaO = kPiD;
   if (a.isFull() || b.isFull()) return out;
   Vec3 other = b.axis;
@@ -122,9 +122,14 @@ LinearLightBVHNode::LinearLightBVHNode(const Bounds3& box, const EmissionCone& c
     half_[static_cast<size_t>(i)] =
         packUp(std::max(0.f, std::max(box.max[i] - center_[i], center_[i] - box.min[i])));
   cone_ = packAxis(cone.axis, kAxisMax) << 12;
-  const double widened = cone.isFull() ? kPiD : cone.thetaO + angle(axis(), cone.axis) + kAxisError;
-  cone_ |= packHalfSine(widened, kSineMax);
-  emission_ = static_cast<uint16_t>(packHalfSine(cone.thetaE, kEmissionMax) << 1 |
+  double halfSine = 1;
+  if (!cone.isFull()) {
+    const double widened = cone.thetaO + angle(axis(), cone.axis) + kAxisError;
+    halfSine = std::sin(0.5 * std::min(widened, kPiD));
+  }
+  cone_ |= packHalfSine(halfSine, kSineMax);
+  const double halfSineE = std::sqrt(0.5 * (1 - cone.cosThetaE));
+  emission_ = static_cast<uint16_t>(packHalfSine(halfSineE, kEmissionMax) << 1 |
                                     static_cast<uint32_t>(cone.twoSided));
 }
 

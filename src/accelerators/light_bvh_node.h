@@ -18,10 +18,10 @@
 namespace lampyris {
 
 /// Directions of emission: normals within θo of ±axis (only + if not two-sided), emission within θe
-/// of a normal. In radians, θo in [0, π], θe in [0, π].
+/// of a normal. θo in radians, both in [0, π].
 struct EmissionCone {
   Vec3 axis{0, 0, 1};  ///< unit
-  double thetaO = 0, thetaE = 0;
+  double thetaO = 0, cosThetaE = 1;
   bool twoSided = false;
 
   static EmissionCone of(const LightBounds& bounds);
@@ -87,12 +87,13 @@ class alignas(32) LinearLightBVHNode {
   static constexpr uint32_t kAxisMax = 1022, kSineMax = 4095, kEmissionMax = 32767;
   static float unpack(uint16_t v) { return std::bit_cast<float>(static_cast<uint32_t>(v) << 16); }
 
-  Vec3 center_{0};
-  float intensity_ = 0;
-  uint32_t index_ = 0;              ///< highest bit: leaf
-  uint32_t cone_ = 0;               ///< octahedral axis 2 × 10 bits, sin(θo/2) 12 bits
-  std::array<uint16_t, 3> half_{};  ///< upper halves of floats
-  uint16_t emission_ = 0;           ///< sin(θe/2) 15 bits, two-sided 1 bit
+  // Without values: an array of nodes that are yet to be filled in should cost nothing.
+  Vec3 center_;
+  float intensity_;
+  uint32_t index_;                ///< highest bit: leaf
+  uint32_t cone_;                 ///< octahedral axis 2 × 10 bits, sin(θo/2) 12 bits
+  std::array<uint16_t, 3> half_;  ///< upper halves of floats
+  uint16_t emission_;             ///< sin(θe/2) 15 bits, two-sided 1 bit
 };
 static_assert(sizeof(LinearLightBVHNode) == 32);
 

@@ -30,13 +30,20 @@ size_t choose(const ChildWeights& weights, double& u) {
 }  // namespace
 
 WideLightBVH::WideLightBVH(const LightBVHAccel& tree) {
-  for (const LinearLightBVHNode& n : tree.nodes())
-    if (n.isLeaf() && n.light() >= slotOf_.size()) slotOf_.resize(n.light() + 1, kNotInTree);
+  slotOf_.assign(tree.idCount(), kNotInTree);
   WideLightBVHBuilder(tree, *this).build();
   stats_.lights = lights_.size();
   stats_.nodes = nodes_.size();
   stats_.bytes = nodes_.size() * sizeof(WideLightBVHNode) + lights_.size() * sizeof(LightId) +
                  slotOf_.size() * sizeof(uint32_t);
+}
+
+void WideLightBVH::prefetchBelow(const WideLightBVHNode& node) const {
+  constexpr size_t kCacheLine = 64;
+  if (node.leaves) __builtin_prefetch(&lights_[node.firstLight]);
+  const char* const children = reinterpret_cast<const char*>(nodes_.data() + node.firstChild);
+  const size_t bytes = static_cast<size_t>(std::popcount(node.inner)) * sizeof(WideLightBVHNode);
+  for (size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(children + i);
 }
 
 std::optional<SampledLight> WideLightBVH::sample(const LightReceiver& at, double u) const {
@@ -48,6 +55,7 @@ std::optional<SampledLight> WideLightBVH::descend(uint32_t number, const LightRe
                                                   double u, double count) const {
   while (true) {
     const WideLightBVHNode& node = nodes_[number];
+    prefetchBelow(node);
     const ChildWeights weights = importances(node, at);
     if (!(weights.total() > 0)) return std::nullopt;
     const size_t lane = choose(weights, u);

@@ -73,7 +73,7 @@ class WideLightBVH {
   float expectedCount(const LightReceiver& at, LightId light,
                       const LightSplitting& splitting) const;
 
-  const std::vector<WideLightBVHNode>& nodes() const { return nodes_; }
+  const HugeVector<WideLightBVHNode>& nodes() const { return nodes_; }
   const Stats& stats() const { return stats_; }
 
  private:
@@ -81,18 +81,20 @@ class WideLightBVH {
   class Way;
   class Cut;
 
+  /// Fetches all that a choice among the node's children may need next, while it is made.
+  void prefetchBelow(const WideLightBVHNode& node) const;
   std::optional<SampledLight> descend(uint32_t node, const LightReceiver& at, double u,
                                       double count) const;
   void split(uint32_t node, uint32_t budget, Cut& cut) const;
   /// How many lights the whole tree may give to the point.
   uint32_t rootBudget(const LightReceiver& at, const LightSplitting& splitting) const;
 
-  std::vector<WideLightBVHNode> nodes_;
-  std::vector<LightId> lights_;   ///< by leaf
-  std::vector<uint32_t> slotOf_;  ///< per light id: 8 × node + lane
-  float strongest_ = 0;           ///< intensity of the root's strongest child
-  Vec3 center_{0};                ///< of the root's bounding sphere
-  float radius2_ = 0;             ///< its squared radius
+  HugeVector<WideLightBVHNode> nodes_;
+  HugeVector<LightId> lights_;   ///< by leaf
+  HugeVector<uint32_t> slotOf_;  ///< per light id: 8 × node + lane
+  float strongest_ = 0;          ///< intensity of the root's strongest child
+  Vec3 center_{0};               ///< of the root's bounding sphere
+  float radius2_ = 0;            ///< its squared radius
   Stats stats_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/bounds.h"
+#include "core/parallel.h"
 
 namespace lampyris {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 constexpr size_t kWidth = WideLightBVHNode::kWidth;
 /// Least extent of a node, relative to the root's: bounds the ratio of distances to extents.
 constexpr float kLeastExtent = 1e-10f;
+/// Lights of a piece of the tree that one thread collapses.
+constexpr uint32_t kPieceLights = 16384;
 
 /// What all children of a subtree of this many lights should hold: the largest power of the width
 /// that leaves more than one child.
@@ -34,17 +37,39 @@ void WideLightBVHBuilder::build() {
   if (binary_.empty()) return;
   out_.center_ = binary_[0].center();
   out_.radius2_ = dot(binary_[0].halfExtent(), binary_[0].halfExtent());
-  const size_t lights = (binary_.size() + 1) / 2;
-  out_.lights_.reserve(lights);
-  out_.nodes_.reserve(lights / 4 + 8);
-  out_.nodes_.emplace_back();
-  pending_.push_back({{0, static_cast<uint32_t>(binary_.size())}, 0, 1});
-  while (!pending_.empty()) {
-    const Task task = pending_.back();
-    pending_.pop_back();
-    fill(task);
+
+  const Subtree all{0, static_cast<uint32_t>(binary_.size())};
+  Piece top;
+  top.nodes.emplace_back();
+  top.pending.push_back({all, 0, 1});
+  std::vector<Task> roots;
+  collapse(top, all.lights() > kPieceLights ? kPieceLights : 0, roots);
+  std::vector<Piece> pieces(roots.size());
+  parallelFor(roots.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      std::vector<Task> none;
+      pieces[i].nodes.push_back(top.nodes[roots[i].node]);
+      pieces[i].pending.push_back({roots[i].subtree, 0, roots[i].depth});
+      collapse(pieces[i], 0, none);
+    }
+  });
+
+  std::vector<Place> places;
+  Place next{0, static_cast<uint32_t>(top.nodes.size()), static_cast<uint32_t>(top.lights.size())};
+  out_.stats_.depth = top.depth;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    next.root = roots[i].node;
+    places.push_back(next);
+    next.firstNode += static_cast<uint32_t>(pieces[i].nodes.size() - 1);
+    next.firstLight += static_cast<uint32_t>(pieces[i].lights.size());
+    out_.stats_.depth = std::max(out_.stats_.depth, pieces[i].depth);
   }
-  out_.nodes_.shrink_to_fit();
+  out_.nodes_.resize(next.firstNode);
+  out_.lights_.resize(next.firstLight);
+  place(top, {0, 1, 0});
+  parallelFor(pieces.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) place(pieces[i], places[i]);
+  });
 }
 
 void WideLightBVHBuilder::open(Children& children, size_t& count, size_t which) const {
@@ -82,28 +107,58 @@ size_t WideLightBVHBuilder::chooseChildren(const Subtree& root, Children& childr
   return count;
 }
 
-void WideLightBVHBuilder::fill(const Task& task) {
+void WideLightBVHBuilder::collapse(Piece& piece, uint32_t leave, std::vector<Task>& aside) const {
+  while (!piece.pending.empty()) {
+    const Task task = piece.pending.back();
+    piece.pending.pop_back();
+    if (task.subtree.lights() <= leave) {
+      aside.push_back(task);
+    } else {
+      fill(task, piece);
+    }
+  }
+}
+
+void WideLightBVHBuilder::fill(const Task& task, Piece& piece) const {
   Children children;
   const size_t count = chooseChildren(task.subtree, children);
   std::array<const LinearLightBVHNode*, kWidth> nodes{};
   for (size_t i = 0; i < count; ++i) nodes[i] = &binary_[children[i].first];
   WideLightBVHNode encoded;
   const float strongest = encoded.encode({nodes.data(), count}, leastExtent_);
-  if (task.node == 0) out_.strongest_ = strongest;
-  encoded.parent = out_.nodes_[task.node].parent;
-  encoded.firstLight = static_cast<uint32_t>(out_.lights_.size());
-  encoded.firstChild = static_cast<uint32_t>(out_.nodes_.size());
-  out_.nodes_[task.node] = encoded;
-  out_.stats_.depth = std::max(out_.stats_.depth, task.depth);
+  if (task.subtree.first == 0) out_.strongest_ = strongest;
+  encoded.parent = piece.nodes[task.node].parent;
+  encoded.firstLight = static_cast<uint32_t>(piece.lights.size());
+  encoded.firstChild = static_cast<uint32_t>(piece.nodes.size());
+  piece.nodes[task.node] = encoded;
+  piece.depth = std::max(piece.depth, task.depth);
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t slot = task.node * static_cast<uint32_t>(kWidth) + static_cast<uint32_t>(i);
     if (nodes[i]->isLeaf()) {
-      out_.slotOf_[nodes[i]->light()] = slot;
-      out_.lights_.push_back(nodes[i]->light());
+      piece.lights.push_back(nodes[i]->light());
     } else {
-      pending_.push_back({children[i], static_cast<uint32_t>(out_.nodes_.size()), task.depth + 1});
-      out_.nodes_.emplace_back().parent = slot;
+      const auto child = static_cast<uint32_t>(piece.nodes.size());
+      piece.pending.push_back({children[i], child, task.depth + 1});
+      piece.nodes.emplace_back().parent =
+          task.node * static_cast<uint32_t>(kWidth) + static_cast<uint32_t>(i);
     }
+  }
+}
+
+void WideLightBVHBuilder::place(const Piece& piece, const Place& at) const {
+  constexpr auto kLanes = static_cast<uint32_t>(kWidth);
+  const auto numberOf = [&](uint32_t node) {
+    return node == 0 ? at.root : at.firstNode + node - 1;
+  };
+  std::copy(piece.lights.begin(), piece.lights.end(), out_.lights_.begin() + at.firstLight);
+  for (uint32_t i = 0; i < piece.nodes.size(); ++i) {
+    WideLightBVHNode& node = out_.nodes_[numberOf(i)];
+    node = piece.nodes[i];
+    if (i > 0) node.parent = numberOf(node.parent / kLanes) * kLanes + node.parent % kLanes;
+    node.firstChild = numberOf(node.firstChild);
+    node.firstLight += at.firstLight;
+    for (uint32_t lane = 0; lane < kLanes; ++lane)
+      if (node.isLeaf(lane))
+        out_.slotOf_[out_.lights_[node.light(lane)]] = numberOf(i) * kLanes + lane;
   }
 }
 

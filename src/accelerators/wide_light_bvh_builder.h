@@ -7,7 +7,9 @@
 namespace lampyris {
 
 /// Takes subtrees as children so that nodes are full at the bottom (few bytes a light) and alike in
-/// size at the top (few levels).
+/// size at the top (few levels). Below the top, pieces of the tree are collapsed in parallel, each
+/// into nodes of its own, and then put side by side: the tree doesn't depend on the number of
+/// threads.
 class WideLightBVHBuilder {
  public:
   WideLightBVHBuilder(const LightBVHAccel& tree, WideLightBVH& out);
@@ -25,15 +27,28 @@ class WideLightBVHBuilder {
     Subtree subtree;
     uint32_t node, depth;
   };
+  /// A part of the wide tree. Its numbers are its own until place().
+  struct Piece {
+    std::vector<WideLightBVHNode> nodes;  ///< the root first
+    std::vector<LightId> lights;
+    std::vector<Task> pending;
+    uint32_t depth = 0;  ///< levels above and within
+  };
+  /// Where a piece goes: its root has a place among the nodes of the top, the others follow.
+  struct Place {
+    uint32_t root, firstNode, firstLight;
+  };
 
   size_t chooseChildren(const Subtree& root, Children& children) const;
   void open(Children& children, size_t& count, size_t which) const;
-  void fill(const Task& task);
+  /// Fills in the pending nodes, and puts those of at most `leave` lights aside.
+  void collapse(Piece& piece, uint32_t leave, std::vector<Task>& aside) const;
+  void fill(const Task& task, Piece& piece) const;
+  void place(const Piece& piece, const Place& at) const;
 
-  const std::vector<LinearLightBVHNode>& binary_;
+  const HugeVector<LinearLightBVHNode>& binary_;
   WideLightBVH& out_;
   float leastExtent_;
-  std::vector<Task> pending_;
 };
 
 }  // namespace lampyris

@@ -28,7 +28,6 @@ struct alignas(32) WideLightBVHNode {
   /// strongest child's intensity.
   float encode(std::span<const LinearLightBVHNode* const> children, float leastExtent);
 
-  int childCount() const { return std::popcount(leaves) + std::popcount(inner); }
   bool isLeaf(size_t lane) const { return leaves >> lane & 1; }
   /// Of a child that is an inner node: its number.
   uint32_t child(size_t lane) const { return firstChild + before(inner, lane); }

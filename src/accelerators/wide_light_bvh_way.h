@@ -10,9 +10,14 @@ class WideLightBVH::Way {
  public:
   Way(const WideLightBVH& tree, LightId light) {
     if (light >= tree.slotOf_.size()) return;
-    for (uint32_t slot = tree.slotOf_[light]; slot != WideLightBVHNode::kNoParent;
-         slot = tree.nodes_[slot / WideLightBVHNode::kWidth].parent)
+    for (uint32_t slot = tree.slotOf_[light]; slot != WideLightBVHNode::kNoParent;) {
+      const WideLightBVHNode& node = tree.nodes_[slot / WideLightBVHNode::kWidth];
+      // The links lie at the end of a node; follow() wants the rest of it.
+      __builtin_prefetch(&node);
+      __builtin_prefetch(&node.half);
       slots_[length_++] = slot;
+      slot = node.parent;
+    }
   }
   bool empty() const { return length_ == 0; }
   /// Calls step(node, lane) from the root on until it returns false.

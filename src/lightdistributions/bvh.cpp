@@ -12,8 +12,7 @@ void BvhParameters::declare(Declaration& d) {
   d.add("tree", tree, "Form of the tree: eight children a node, or two, which never splits.")
       .oneOf({"wide", "binary"});
   d.add("factors", factors,
-        "How the importance of a cluster takes in angles: means over it, bounds, or bounds "
-        "without "
+        "How the importance of a cluster takes in angles: means over it, bounds, or bounds without "
         "the receiver's cosine. The latter two need \"tree\" \"binary\".")
       .oneOf({"mean", "bound", "thesis"});
   d.add("splitthreshold", splitThreshold,

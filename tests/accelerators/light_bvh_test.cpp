@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accelerators/light_bvh.h"
 
-#include <cstring>
-
-#include "core/parallel.h"
 #include "light_trees.h"
 
 namespace lampyris::test {
@@ -56,21 +53,6 @@ TEST(LightBVH, SplitsByOrientation) {
   }
   const LightBVHAccel tree(lights);
   EXPECT_LT(tree.nodes()[1].halfSineO(), 0.1f);
-}
-
-TEST(LightBVH, SameForAnyNumberOfThreads) {
-  for (const Kind kind : {Kind::Points, Kind::Cones}) {
-    const auto lights = makeLights(kind, 50'000);
-    std::vector<LinearLightBVHNode> one;
-    {
-      const ThreadLimit limit(1);
-      one = LightBVHAccel(lights).nodes();
-    }
-    const ThreadLimit limit(4);
-    const auto four = LightBVHAccel(lights).nodes();
-    ASSERT_EQ(one.size(), four.size());
-    EXPECT_EQ(std::memcmp(one.data(), four.data(), one.size() * sizeof one[0]), 0);
-  }
 }
 
 TEST(LightBVH, ByIntensity) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The contract of light distributions, for both forms of the light BVH.
+#include <cstring>
+
+#include "core/parallel.h"
 #include "light_trees.h"
 
 namespace lampyris::test {
@@ -96,6 +99,21 @@ TYPED_TEST(LightTree, DrawsAsPmfSays) {
       }
     }
     EXPECT_EQ(chiSquareTest(observed, expected), "");
+  }
+}
+
+TYPED_TEST(LightTree, SameForAnyNumberOfThreads) {
+  for (const Kind kind : {Kind::Points, Kind::Cones}) {
+    const auto lights = makeLights(kind, 50'000);
+    const auto build = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return TestFixture::build(lights);
+    };
+    const TypeParam one = build(1), four = build(4);
+    ASSERT_EQ(one.nodes().size(), four.nodes().size());
+    EXPECT_EQ(std::memcmp(one.nodes().data(), four.nodes().data(),
+                          one.nodes().size() * sizeof one.nodes()[0]),
+              0);
   }
 }
 
