@@ -19,6 +19,15 @@ struct CameraRay {
   Ray ray;  ///< unit direction, world space
   RayDifferential differential;
   float weight = 1;  ///< 0: the lens lets nothing through
+
+  /// For rays that are `factor` times as far apart as pixels.
+  void scaleDifferentials(float factor) {
+    RayDifferential& d = differential;
+    d.xOrigin = ray.o + (d.xOrigin - ray.o) * factor;
+    d.yOrigin = ray.o + (d.yOrigin - ray.o) * factor;
+    d.xDirection = ray.d + (d.xDirection - ray.d) * factor;
+    d.yDirection = ray.d + (d.yDirection - ray.d) * factor;
+  }
 };
 
 /// How a point of the scene shows on the film, through one point of the lens.
