@@ -24,28 +24,69 @@ struct BdptParameters {
   }
 };
 
+constexpr uint64_t kTypicalSamples = 256;
+
 class FilmSplats final : public SplatSink {
  public:
   explicit FilmSplats(Film& film) : film_(film) {}
-  void splat(const Vec2& at, const Rgb& value) override { film_.addSplat(at, value); }
+  void splat(const Splat& s) override { film_.addSplat(s.film, s.value); }
 
  private:
   Film& film_;
 };
 
-/// Counts each sample's path from the lights.
-class CountingEstimator final : public RadianceEstimator {
+class SplatSum final : public SplatSink {
  public:
-  CountingEstimator(const RadianceEstimator& inner, Film& film) : inner_(inner), film_(film) {}
+  void splat(const Splat& s) override { sum += static_cast<double>(s.value.luminance()); }
+  double sum = 0;
+};
+
+/// Everything but the paths that the light's side leads to the camera itself: those go into the
+/// light image.
+class BdptEstimator final : public RadianceEstimator {
+ public:
+  BdptEstimator(const RenderContext& context, int maxDepth, const LightDistribution* distribution,
+                const PixelBounds& pixels)
+      : paths_(context, distribution, pixels), maxDepth_(maxDepth), film_(context.film) {}
+
   Rgb radiance(const CameraRay& camera, SampleStream& stream, RenderState& state) const override {
+    FilmSplats splats(film_);
     film_.addLightPaths(1);
-    return inner_.radiance(camera, stream, state);
+    return paths_.all(maxDepth_, camera, stream, state, splats);
   }
+  double typicalSample(const RenderContext& context, const PixelBounds& pixels) const;
 
  private:
-  const RadianceEstimator& inner_;
+  const BidirectionalPaths paths_;
+  const int maxDepth_;
   Film& film_;
 };
+
+/// About the mean of a sample's radiance and splats, the same whenever it is asked for: for
+/// Film::openLightImage(). From a few samples, spread over `pixels`.
+double BdptEstimator::typicalSample(const RenderContext& context, const PixelBounds& pixels) const {
+  SplatSum splats;
+  const auto count = static_cast<uint64_t>(pixels.area());
+  const uint64_t stride = count / kTypicalSamples + 1;
+  RenderState state;
+  double sum = 0;
+  for (uint64_t i = 0; i < kTypicalSamples; ++i) {
+    const uint64_t at = i * stride, pixel = at % count;
+    const Int2 offset(static_cast<int>(pixel % static_cast<uint64_t>(pixels.size().x)),
+                      static_cast<int>(pixel / static_cast<uint64_t>(pixels.size().x)));
+    SampleStream stream(context.sampler, {pixels.min + offset, at / count});
+    CameraSample sample;
+    sample.film = Vec2(pixels.min + offset) + stream.next2D();
+    sample.lens = stream.next2D();
+    sample.time = stream.next1D();
+    const CameraRay camera = context.camera.generate(sample);
+    const auto y =
+        static_cast<double>(paths_.all(maxDepth_, camera, stream, state, splats).luminance());
+    if (std::isfinite(y)) sum += std::abs(y);
+  }
+  const double typical = (sum + splats.sum) / kTypicalSamples;
+  return typical > 0 && std::isfinite(typical) ? typical : 1;
+}
 
 class BdptIntegrator final : public Integrator {
  public:
@@ -57,13 +98,10 @@ class BdptIntegrator final : public Integrator {
 
   uint64_t render(RenderContext& context) const override {
     const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
-    FilmSplats splats(context.film);
-    const BidirectionalEstimator estimator(context, parameters_.maxDepth, distribution_.get(),
-                                           pixels, splats);
-    if (!context.camera.projects()) return renderPasses(context, pixels, estimator);
-    context.film.openLightImage(
-        typicalSample(context, parameters_.maxDepth, distribution_.get(), pixels));
-    return renderPasses(context, pixels, CountingEstimator(estimator, context.film));
+    const BdptEstimator estimator(context, parameters_.maxDepth, distribution_.get(), pixels);
+    if (context.camera.projects())
+      context.film.openLightImage(estimator.typicalSample(context, pixels));
+    return renderPasses(context, pixels, estimator);
   }
 
  private:

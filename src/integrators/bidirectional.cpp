@@ -16,8 +16,6 @@ namespace lampyris {
 
 namespace {
 
-constexpr uint64_t kTypicalSamples = 256;
-
 LightSampleContext contextOf(const PathVertex& v) { return {v.at, v.bsdf}; }
 
 /// The place of a vertex as what a shadow ray is led to.
@@ -40,7 +38,7 @@ Rgb scatteredFromLight(const PathVertex& v, const Vec3& w) {
 
 }  // namespace
 
-struct BidirectionalEstimator::Paths {
+struct BidirectionalPaths::Paths {
   Subpath camera, light;
   WholePath whole;
   float time = 0;
@@ -57,65 +55,112 @@ struct BidirectionalEstimator::Paths {
   }
 };
 
-/// Adds up the emission that the camera's walk finds.
-class BidirectionalEstimator::Found final : public EmissionSink {
+/// Adds up the emission that the camera's walk finds after `vertices` of its own (0: any number).
+class BidirectionalPaths::Found final : public EmissionSink {
  public:
-  Found(const BidirectionalEstimator& estimator, Paths& paths)
-      : estimator_(estimator), paths_(paths) {}
+  Found(const BidirectionalPaths& estimator, Paths& paths, size_t vertices)
+      : estimator_(estimator), paths_(paths), vertices_(vertices) {}
   void found(const PathVertex& light, const Rgb& radiance) override {
+    if (vertices_ > 0 && paths_.camera.size() != vertices_) return;
     const WholePath& whole = paths_.join(light, 0, paths_.camera.size());
     sum += radiance * static_cast<float>(estimator_.densities_.weight(whole, paths_.time));
   }
   Rgb sum;
 
  private:
-  const BidirectionalEstimator& estimator_;
+  const BidirectionalPaths& estimator_;
   Paths& paths_;
+  const size_t vertices_;
 };
 
-BidirectionalEstimator::BidirectionalEstimator(const RenderContext& context, int maxDepth,
-                                               const LightDistribution* distribution,
-                                               const PixelBounds& pixels, SplatSink& splats)
+BidirectionalPaths::BidirectionalPaths(const RenderContext& context,
+                                       const LightDistribution* distribution,
+                                       const PixelBounds& pixels)
     : scene_(context.scene),
       camera_(context.camera),
-      maxDepth_(maxDepth),
       distribution_(distribution),
       splatFactor_(1 / static_cast<float>(context.film.bounds().area())),
-      splats_(splats),
       emitters_(scene_.lightTable),
-      tracer_(scene_, emitters_, maxDepth),
+      tracer_(scene_, emitters_),
       densities_(scene_, camera_, emitters_, distribution, pixels.area()) {}
 
-Rgb BidirectionalEstimator::radiance(const CameraRay& camera, SampleStream& stream,
-                                     RenderState& state) const {
-  thread_local Paths paths;  // kept, so that a sample allocates nothing
+/// Kept, so that a sample allocates nothing.
+BidirectionalPaths::Paths& BidirectionalPaths::threadPaths() {
+  thread_local Paths paths;
+  return paths;
+}
+
+Rgb BidirectionalPaths::all(int maxDepth, const CameraRay& camera, SampleStream& stream,
+                            RenderState& state, SplatSink& splats) const {
+  Paths& paths = threadPaths();
   paths.time = camera.ray.time;
-  Found found(*this, paths);
+  Found found(*this, paths, 0);
+  const auto surfaces = static_cast<size_t>(maxDepth), edges = surfaces + 1;
   const double pdf = densities_.cameraPdf(camera.ray.d, paths.time);
-  tracer_.fromCamera(camera, pdf, stream, paths.camera, state.rays, found);
+  tracer_.fromCamera(camera, pdf, surfaces, stream, paths.camera, state.rays, &found);
   Rgb sum = found.sum;
   if (state.aov && paths.camera.size() > 1) {
     stream.setDimension(cameraDimension(1) + kDirectionOffset);
     recordSurface(*state.aov, paths.camera[1].at, paths.camera[1].bsdf, stream);
   }
   if (emitters_.empty() || !distribution_) return sum;
-  tracer_.fromLight(paths.time, stream, paths.light, state.rays);
-  const auto edges = static_cast<size_t>(maxDepth_) + 1;
-  for (size_t t = 2; t <= paths.camera.size() && t <= edges; ++t) {
-    if (paths.camera[t - 1].bsdf.isSpecular()) continue;
-    sum += sampleLight(paths, t, stream, state.rays);
-    for (size_t s = 2; s <= paths.light.size() && s + t <= edges + 1; ++s)
-      sum += connect(paths, s, t, state.rays);
-  }
+  tracer_.fromLight(paths.time, surfaces, stream, paths.light, state.rays);
+  const size_t s = std::max<size_t>(paths.light.size(), 1);
+  for (size_t t = 2; t <= paths.camera.size() && t <= edges; ++t)
+    for (size_t i = 1; i <= s && i + t <= edges + 1; ++i)
+      sum += joined(paths, i, t, stream, state.rays);
   if (camera_.projects())
-    for (size_t s = 2; s <= paths.light.size() && s <= edges; ++s)
-      connectCamera(paths, s, stream, state.rays);
+    for (size_t i = 2; i <= paths.light.size() && i <= edges; ++i)
+      if (const auto splat = connectCamera(paths, i, stream, state.rays)) splats.splat(*splat);
   return sum;
 }
 
+size_t BidirectionalPaths::strategyCount(int depth) const {
+  if (depth == 0) return 1;  // the camera alone sees lights
+  const auto bounces = static_cast<size_t>(depth);
+  return emitters_.empty() || !distribution_ ? 1 : bounces + 1 + (camera_.projects() ? 1 : 0);
+}
+
+PathStrategy BidirectionalPaths::strategy(int depth, size_t number) const {
+  return {number, static_cast<size_t>(depth) + 2 - number};
+}
+
+Splat BidirectionalPaths::one(const PathStrategy& strategy, const Vec2& film,
+                              const CameraRay& camera, SampleStream& stream,
+                              RayCounts& rays) const {
+  const size_t s = strategy.fromLight, t = strategy.fromCamera;
+  Paths& paths = threadPaths();
+  paths.time = camera.ray.time;
+  Splat result{film, Rgb()};
+  if (t > 1) {
+    Found found(*this, paths, t - 1);
+    const double pdf = densities_.cameraPdf(camera.ray.d, paths.time);
+    tracer_.fromCamera(camera, pdf, s > 0 ? t - 1 : t - 2, stream, paths.camera, rays,
+                       s > 0 ? nullptr : &found);
+    result.value = found.sum;
+    if (s == 0 || paths.camera.size() < t) return result;
+  }
+  if (s > 1) {
+    tracer_.fromLight(paths.time, s - 1, stream, paths.light, rays);
+    if (paths.light.size() < s) return result;
+  }
+  if (t > 1)
+    result.value = joined(paths, s, t, stream, rays);
+  else if (const auto splat = connectCamera(paths, s, stream, rays))
+    result = *splat;
+  return result;
+}
+
+/// Paths of s ≥ 1 vertices from the light's side and t ≥ 2 from the camera's.
+Rgb BidirectionalPaths::joined(Paths& paths, size_t s, size_t t, SampleStream& stream,
+                               RayCounts& rays) const {
+  if (paths.camera[t - 1].bsdf.isSpecular()) return Rgb();
+  return s > 1 ? connect(paths, s, t, rays) : sampleLight(paths, t, stream, rays);
+}
+
 /// Light sampling at the camera's vertex t − 1.
-Rgb BidirectionalEstimator::sampleLight(Paths& paths, size_t t, SampleStream& stream,
-                                        RayCounts& rays) const {
+Rgb BidirectionalPaths::sampleLight(Paths& paths, size_t t, SampleStream& stream,
+                                    RayCounts& rays) const {
   const PathVertex& v = paths.camera[t - 1];
   stream.setDimension(cameraDimension(t - 1));
   const LightSampleContext at = contextOf(v);
@@ -140,7 +185,7 @@ Rgb BidirectionalEstimator::sampleLight(Paths& paths, size_t t, SampleStream& st
 }
 
 /// An edge between the walks' vertices s − 1 and t − 1.
-Rgb BidirectionalEstimator::connect(Paths& paths, size_t s, size_t t, RayCounts& rays) const {
+Rgb BidirectionalPaths::connect(Paths& paths, size_t s, size_t t, RayCounts& rays) const {
   const PathVertex &l = paths.light[s - 1], &c = paths.camera[t - 1];
   const Vec3 d = l.at.p - c.at.p, w = normalize(d);
   if (w == Vec3(0)) return Rgb();
@@ -153,29 +198,30 @@ Rgb BidirectionalEstimator::connect(Paths& paths, size_t s, size_t t, RayCounts&
 }
 
 /// An edge from the light's vertex s − 1 to the lens.
-void BidirectionalEstimator::connectCamera(Paths& paths, size_t s, SampleStream& stream,
-                                           RayCounts& rays) const {
+std::optional<Splat> BidirectionalPaths::connectCamera(Paths& paths, size_t s, SampleStream& stream,
+                                                       RayCounts& rays) const {
   const PathVertex& l = paths.light[s - 1];
-  if (l.bsdf.isSpecular()) return;
+  if (l.bsdf.isSpecular()) return std::nullopt;
   stream.setDimension(lightDimension(s - 1) + 1);
   const auto view = camera_.project(l.at.p, stream.next2D(), paths.time);
-  if (!view) return;
+  if (!view) return std::nullopt;
   const Vec3 d = view->lens - l.at.p, w = normalize(d);
   const Rgb value =
       scatteredFromLight(l, w) * (view->pixelsPerSteradian * splatFactor_ / lengthSquared(d));
-  if (value.isBlack() || !value.isFinite()) return;
+  if (value.isBlack() || !value.isFinite()) return std::nullopt;
   PathVertex lens;
   lens.kind = PathVertex::Kind::Camera;
   lens.at.p = view->lens;
   lens.at.n = Vec3(0);
-  if (!isVisible(shadowRay(contextOf(l), paths.time, targetAt(lens, w)), rays)) return;
+  if (!isVisible(shadowRay(contextOf(l), paths.time, targetAt(lens, w)), rays)) return std::nullopt;
   paths.join(paths.light[0], s, 0);
   paths.whole.vertices.push_back(&lens);
-  splats_.splat(view->film, value * static_cast<float>(densities_.weight(paths.whole, paths.time)));
+  const auto weight = static_cast<float>(densities_.weight(paths.whole, paths.time));
+  return Splat{view->film, value * weight};
 }
 
 /// As in pbrt-v3's bdpt, and unlike its path, interfaces block no light.
-bool BidirectionalEstimator::isVisible(const Ray& segment, RayCounts& rays) const {
+bool BidirectionalPaths::isVisible(const Ray& segment, RayCounts& rays) const {
   ++rays.shadow;
   const Geometry& geometry = *scene_.geometry;
   if (!geometry.occluded(segment)) return true;
@@ -194,43 +240,6 @@ bool BidirectionalEstimator::isVisible(const Ray& segment, RayCounts& rays) cons
     if (!(ray.tMax > 0)) return true;
   }
   return false;
-}
-
-namespace {
-
-class SplatSum final : public SplatSink {
- public:
-  void splat(const Vec2&, const Rgb& value) override {
-    sum += static_cast<double>(value.luminance());
-  }
-  double sum = 0;
-};
-
-}  // namespace
-
-double typicalSample(const RenderContext& context, int maxDepth,
-                     const LightDistribution* distribution, const PixelBounds& pixels) {
-  SplatSum splats;
-  const BidirectionalEstimator estimator(context, maxDepth, distribution, pixels, splats);
-  const auto count = static_cast<uint64_t>(pixels.area());
-  const uint64_t stride = count / kTypicalSamples + 1;
-  RenderState state;
-  double sum = 0;
-  for (uint64_t i = 0; i < kTypicalSamples; ++i) {
-    const uint64_t at = i * stride, pixel = at % count;
-    const Int2 offset(static_cast<int>(pixel % static_cast<uint64_t>(pixels.size().x)),
-                      static_cast<int>(pixel / static_cast<uint64_t>(pixels.size().x)));
-    SampleStream stream(context.sampler, {pixels.min + offset, at / count});
-    CameraSample sample;
-    sample.film = Vec2(pixels.min + offset) + stream.next2D();
-    sample.lens = stream.next2D();
-    sample.time = stream.next1D();
-    const CameraRay camera = context.camera.generate(sample);
-    const auto y = static_cast<double>(estimator.radiance(camera, stream, state).luminance());
-    if (std::isfinite(y)) sum += std::abs(y);
-  }
-  const double typical = (sum + splats.sum) / kTypicalSamples;
-  return typical > 0 && std::isfinite(typical) ? typical : 1;
 }
 
 }  // namespace lampyris

@@ -67,7 +67,7 @@ class SppmEstimator final : public RadianceEstimator {
         geometry_(*context.scene.geometry),
         lighting_(context.scene, LightStrategy::One, distribution),
         emitters_(context.scene.lightTable),
-        tracer_(context.scene, emitters_, p.maxDepth),
+        tracer_(context.scene, emitters_),
         maxDepth_(p.maxDepth),
         firstRadius_(static_cast<double>(p.radius)),
         photons_(static_cast<size_t>(p.photons > 0 ? p.photons : context.film.bounds().area())) {}
@@ -141,7 +141,8 @@ void SppmEstimator::tracePhoton(uint64_t iteration, size_t number, Subpath& path
   sample.film = Vec2(pixels.min + at) + 0.5f;
   stream.setDimension(4);
   sample.time = stream.next1D();
-  tracer_.fromLight(context_.camera.generate(sample).ray.time, stream, path, rays);
+  tracer_.fromLight(context_.camera.generate(sample).ray.time, static_cast<size_t>(maxDepth_),
+                    stream, path, rays);
   for (size_t i = 2; i < path.size(); ++i) {
     const PathVertex& v = path[i];
     if (!v.bsdf.isSpecular())

@@ -24,15 +24,17 @@ struct SubpathTracer::Walk {
   Rgb throughput;
   double pdf;  ///< of the direction, or of the place for light from infinity
   const bool fromLight;
+  const size_t surfaces;  ///< that the path may have
   SampleStream stream;
   Subpath& path;
   RayCounts& rays;
-  EmissionSink* emission;
+  EmissionSink* const emission;  ///< null: the last surface is only connected to
   int interfaces = 0;
 };
 
-void SubpathTracer::fromCamera(const CameraRay& camera, double pdf, SampleStream stream,
-                               Subpath& out, RayCounts& rays, EmissionSink& emission) const {
+void SubpathTracer::fromCamera(const CameraRay& camera, double pdf, size_t surfaces,
+                               SampleStream stream, Subpath& out, RayCounts& rays,
+                               EmissionSink* emission) const {
   out.clear();
   PathVertex& v = out.grow();
   v.kind = PathVertex::Kind::Camera;
@@ -43,12 +45,13 @@ void SubpathTracer::fromCamera(const CameraRay& camera, double pdf, SampleStream
   v.throughput = Rgb(1);
   v.forward = 1;
   v.connectible = pdf > 0;
-  Walk walk{camera.ray, &camera.differential, Rgb(1), pdf, false, stream, out, rays, &emission};
+  Walk walk{camera.ray, &camera.differential, Rgb(1), pdf, false, surfaces, stream, out, rays,
+            emission};
   while (advance(walk)) {
   }
 }
 
-void SubpathTracer::fromLight(float time, SampleStream stream, Subpath& out,
+void SubpathTracer::fromLight(float time, size_t surfaces, SampleStream stream, Subpath& out,
                               RayCounts& rays) const {
   out.clear();
   if (emitters_.empty()) return;
@@ -79,6 +82,7 @@ void SubpathTracer::fromLight(float time, SampleStream stream, Subpath& out,
             v.throughput * (cosine / onwards),
             static_cast<double>(onwards),
             true,
+            surfaces,
             stream,
             out,
             rays,
@@ -127,19 +131,19 @@ bool SubpathTracer::advance(Walk& walk) const {
   ++walk.rays.closest;
   const auto hit = geometry.intersect(walk.ray);
   if (!hit) {
-    if (!walk.fromLight) foundOutside(walk);
+    if (walk.emission) foundOutside(walk);
     return false;
   }
   const Primitive& primitive = geometry.primitive(*hit);
   const Material* const material = primitive.material;
   const SurfaceInteraction at = surfaceAt(geometry, walk.ray, *hit, walk.differential);
-  if (primitive.light && !walk.fromLight) foundAtHit(walk, at);
+  if (primitive.light && walk.emission) foundAtHit(walk, at);
   if (!material) {
     walk.differential = nullptr;
     walk.ray.o = offsetRayOrigin(at.p, at.pError, at.n, walk.ray.d);
     return ++walk.interfaces <= kMaxInterfaces;
   }
-  if (walk.path.size() > maxDepth_) return false;
+  if (walk.path.size() > walk.surfaces) return false;
   const PathVertex& before = walk.path.back();
   PathVertex& v = walk.path.spare();
   v.kind = PathVertex::Kind::Surface;
@@ -161,8 +165,7 @@ bool SubpathTracer::scatter(Walk& walk) const {
   const size_t number = walk.path.size() - 1;
   PathVertex& v = walk.path.back();
   PathVertex& before = walk.path[number - 1];
-  // The last vertex of a light's path is only connected to.
-  if (walk.fromLight && number >= maxDepth_) return false;
+  if (!walk.emission && number >= walk.surfaces) return false;
   walk.stream.setDimension((walk.fromLight ? lightDimension(number) : cameraDimension(number)) +
                            kDirectionOffset);
   const Vec3 wo = v.at.wo;

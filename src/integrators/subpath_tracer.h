@@ -30,16 +30,17 @@ class EmissionSink {
 /// Walks end where nothing is scattered; there is no roulette, as in pbrt-v3.
 class SubpathTracer {
  public:
-  /// `maxDepth`: bounces of a whole path.
-  SubpathTracer(const Scene& scene, const EmitterTable& emitters, int maxDepth)
-      : scene_(scene), emitters_(emitters), maxDepth_(static_cast<size_t>(maxDepth)) {}
+  SubpathTracer(const Scene& scene, const EmitterTable& emitters)
+      : scene_(scene), emitters_(emitters) {}
 
-  /// The camera and up to maxDepth surfaces. `emission` is told while `out` ends before the light.
-  /// `pdf`: with which the camera chooses the direction; 0 if it cannot tell.
-  void fromCamera(const CameraRay& camera, double pdf, SampleStream stream, Subpath& out,
-                  RayCounts& rays, EmissionSink& emission) const;
-  /// A light and up to maxDepth surfaces; empty if no light is emitted.
-  void fromLight(float time, SampleStream stream, Subpath& out, RayCounts& rays) const;
+  /// The camera and up to `surfaces` surfaces. `emission` is told while `out` ends before the
+  /// light; null: the last surface is only connected to. `pdf`: with which the camera chooses the
+  /// direction; 0 if it cannot tell.
+  void fromCamera(const CameraRay& camera, double pdf, size_t surfaces, SampleStream stream,
+                  Subpath& out, RayCounts& rays, EmissionSink* emission) const;
+  /// A light and up to `surfaces` surfaces; empty if no light is emitted.
+  void fromLight(float time, size_t surfaces, SampleStream stream, Subpath& out,
+                 RayCounts& rays) const;
 
  private:
   struct Walk;
@@ -50,7 +51,6 @@ class SubpathTracer {
 
   const Scene& scene_;
   const EmitterTable& emitters_;
-  const size_t maxDepth_;
 };
 
 }  // namespace lampyris
