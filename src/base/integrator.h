@@ -67,8 +67,11 @@ class Integrator {
   /// Renders into the film. Returns the number of samples that every pixel has.
   virtual uint64_t render(RenderContext& context) const = 0;
   virtual bool rendersMedia() const { return false; }
-  /// False if a render cannot go on from a film alone: the integrator learns.
+  /// False if a render cannot go on from a film alone: the integrator learns, or has chains.
   virtual bool resumes() const { return true; }
+  /// False if the light image is all there is. Then nothing is known of a pixel alone: no samples
+  /// to replay, no noise, no AOVs.
+  virtual bool samplesPixels() const { return true; }
 };
 
 struct IntegratorContext : BuildContext {
@@ -82,6 +85,7 @@ struct IntegratorContext : BuildContext {
   }
   std::function<std::unique_ptr<LightDistribution>(const std::string&, const Settings&)>
       makeLightDistribution;
+  uint64_t seed = 0;  ///< for numbers that come from no sampler
 };
 
 using IntegratorRegistry = Registry<Integrator, IntegratorContext>;

@@ -7,6 +7,6 @@
   PLUGIN(pathTree)                                                                                \
   PLUGIN(volpath)                                                                                 \
   PLUGIN(guidedPath) PLUGIN(directLighting) PLUGIN(whitted) PLUGIN(ambientOcclusion) PLUGIN(bdpt) \
-      PLUGIN(sppm)
+      PLUGIN(sppm) PLUGIN(mlt)
 
 LAMPYRIS_REGISTRY(integratorRegistry, "integrator", IntegratorRegistry, LAMPYRIS_INTEGRATORS)

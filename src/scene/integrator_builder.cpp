@@ -79,8 +79,8 @@ void buildIntegrator(BuildState& state, const IntegratorChoice& choice) {
     return plugin.create(parameters.set(), {state.context(set.location), scene.lightTable,
                                             scene.bounds, state.statistics});
   };
-  state.job.integrator =
-      choice.plugin->create(set, {state.context(set.location), scene, lightDistribution});
+  state.job.integrator = choice.plugin->create(
+      set, {state.context(set.location), scene, lightDistribution, state.options.seed});
   if (!scene.media.empty() && !state.job.integrator->rendersMedia())
     state.diagnostics.warn(set.location, "integrator \"" + choice.plugin->name +
                                              "\" does not render participating media: they are "

@@ -11,18 +11,6 @@ namespace lampyris {
 
 namespace {
 
-/// What pbrt-v3 has beyond this program; looked at only for names that a registry lacks.
-struct KindNames {
-  std::string_view kind, shownAs;
-  std::vector<std::string_view> names;
-};
-const std::vector<KindNames>& pbrtNames() {
-  static const std::vector<KindNames> all = {
-      {"integrator", "integrator", {"mlt"}},
-  };
-  return all;
-}
-
 bool allKnown(const ParameterSet& set, std::span<const Schema* const> schemas) {
   return std::all_of(set.parameters.begin(), set.parameters.end(), [&](const Parameter& p) {
     return std::any_of(schemas.begin(), schemas.end(), [&p](const Schema* s) {
@@ -35,15 +23,11 @@ bool allKnown(const ParameterSet& set, std::span<const Schema* const> schemas) {
 }  // namespace
 
 void failUnknownPlugin(const RegistryInfo& registry, std::string_view name, SourceLocation where) {
-  for (const KindNames& k : pbrtNames())
-    if (k.kind == registry.kind() &&
-        std::find(k.names.begin(), k.names.end(), name) != k.names.end())
-      throw SceneError(where, fmt::format("{} is a pbrt-v3 {} that Lampyris does not render yet",
-                                          inQuotes(name), k.shownAs));
   if (name == "ptex" && registry.kind().ends_with("texture"))
-    throw SceneError(where,
-                     "\"ptex\" is a pbrt-v3 texture that Lampyris cannot read: it is built without "
-                     "the Ptex library; bake the texture to an image and use \"imagemap\"");
+    throw SceneError(
+        where,
+        "\"ptex\" is a pbrt-v3 texture that Lampyris cannot read: no Debian package has "
+        "the Ptex library; bake the texture to an image and use \"imagemap\"");
   throw SceneError(where, fmt::format("unknown {} {}{}", registry.kind(), inQuotes(name),
                                       didYouMean(name.substr(0, 64), registry.names())));
 }

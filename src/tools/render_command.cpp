@@ -43,6 +43,7 @@ class RenderSession {
  private:
   std::unique_ptr<RenderJob> load(const BuildOptions& options);
   void loadJob();
+  void checkIntegrator() const;
   void resume();
   uint64_t fingerprint() const;
   RenderOptions renderOptions();
@@ -209,14 +210,29 @@ void RenderSession::renderPixel() {
   fmt::print("{}", probe.report(settings_.verbose));
 }
 
+/// What not every integrator can do.
+void RenderSession::checkIntegrator() const {
+  const Integrator& integrator = *job_->integrator;
+  const bool resumes = !settings_.checkpoint.empty() || !settings_.resume.empty();
+  if (resumes && !integrator.resumes())
+    throw UsageError(
+        "this integrator carries more than an image from pass to pass: --checkpoint and --resume "
+        "cannot be used with it");
+  if (integrator.samplesPixels()) return;
+  const char* const option = settings_.pixel               ? "--pixel"
+                             : settings_.noise > 0         ? "--noise"
+                             : !job_->film->aovs().empty() ? "--aov"
+                                                           : nullptr;
+  if (option)
+    throw UsageError(fmt::format(
+        "this integrator has no samples of single pixels: {} cannot be used with it", option));
+}
+
 int RenderSession::run() {
   try {
     const auto start = std::chrono::steady_clock::now();
     loadJob();
-    if (!job_->integrator->resumes() && !(settings_.checkpoint.empty() && settings_.resume.empty()))
-      throw UsageError(
-          "this integrator learns while it renders: --checkpoint and --resume cannot "
-          "be used with it");
+    checkIntegrator();
     report_.scene = scene_;
     report_.loadSeconds = secondsSince(start);
     if (settings_.pixel) {

@@ -118,6 +118,17 @@ TEST_F(Render, ExitCodes) {
   EXPECT_EQ(run("--resume missing.checkpoint tiny.pbrt").code, 3);
 }
 
+TEST_F(Render, WhatIntegratorsCannotDoIsRefused) {
+  write("mlt.pbrt", scene("\"mlt\" \"integer bootstrapsamples\" 100"));
+  EXPECT_EQ(run("--spp 2 -o mlt.exr mlt.pbrt").code, 0);
+  for (const char* option :
+       {"--pixel 3,3", "--noise 0.1", "--aov normal", "--checkpoint c", "--resume c"}) {
+    const CommandResult r = run(std::string(option) + " mlt.pbrt");
+    EXPECT_EQ(r.code, 2) << option;
+    EXPECT_NE(r.err.find("cannot be used with it"), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(Render, SeveralScenesOneAfterAnother) {
   std::string other = scene();
   other.replace(other.find("tiny.exr"), 8, "othr.exr");
