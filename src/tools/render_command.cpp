@@ -15,6 +15,7 @@
 #include "tools/messages.h"
 #include "tools/outputs.h"
 #include "tools/pixel_probe.h"
+#include "tools/print_command.h"
 #include "tools/progress.h"
 #include "tools/render_settings.h"
 #include "tools/run_report.h"
@@ -263,6 +264,7 @@ int RenderSession::run() {
 int runRender(const Arguments& arguments) {
   const auto settings = parseRenderSettings(arguments);
   if (!settings) return kDone;
+  if (settings->print) return runPrint(*settings);
   interruptFlag();
   const ThreadLimit threads(settings->threads);
   for (const std::string& scene : settings->scenes) {

@@ -70,9 +70,7 @@ Arguments splitCrop(const Arguments& arguments) {
   return out;
 }
 
-void check(const RenderSettings& s, bool cat, bool toPly) {
-  if (cat || toPly)
-    throw UsageError(fmt::format("{} is not available yet", cat ? "--cat" : "--toply"));
+void check(const RenderSettings& s) {
   if (s.scenes.empty()) throw UsageError("expected a scene file (or - for standard input)");
   const bool single = s.pixel || !s.resume.empty() || !s.checkpoint.empty() ||
                       !s.statistics.empty() || !s.outputs.empty();
@@ -81,6 +79,10 @@ void check(const RenderSettings& s, bool cat, bool toPly) {
     throw UsageError("--seconds and --noise: expected a number above 0");
   if (s.scenes.size() > 1 && single)
     throw UsageError("--out, --pixel, --stats, --checkpoint and --resume need a single scene file");
+  if (s.print && (s.scenes.size() > 1 || single))
+    throw UsageError(
+        "--cat and --toply print a single scene file, and render nothing: no --out, --pixel, "
+        "--stats, --checkpoint or --resume goes with them");
   if (s.pixel && !(s.resume.empty() && s.checkpoint.empty()))
     throw UsageError("--pixel renders no image that could be resumed");
   if (s.pixel && !s.snapshots.empty())
@@ -151,15 +153,16 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   app.add_flag("--quick", s.quick, "A quarter of the resolution, one sample a pixel");
   app.add_flag("-q,--quiet", s.quiet, "Only errors");
   app.add_flag("-v,--verbose", s.verbose, "All statistics");
-  app.add_flag("--cat", cat, "(pbrt-v3) print the scene: not available yet");
+  app.add_flag("--cat", cat, "Print the scene as one text in an even layout, and render nothing");
   app.add_flag("--toply", toPly,
-               "(pbrt-v3) print the scene, meshes as PLY files: not available yet");
+               "The same, with triangle meshes in PLY files, which are written beside the scene");
   if (parseArguments(app, splitCrop(arguments))) return std::nullopt;
   if (!pixel.empty()) s.pixel = parsePixel(pixel);
   for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));
   if (!snapshots.empty()) s.snapshots = parseSnapshots(snapshots);
   if (!aovs.empty()) s.build.overrides.emplace_back("film.aovs", aovs);
-  check(s, cat, toPly);
+  if (cat || toPly) s.print = PrintOptions{toPly};
+  check(s);
   if (s.checkpoint.empty()) s.checkpoint = s.resume;
   return s;
 }

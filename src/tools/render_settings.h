@@ -8,6 +8,7 @@
 
 #include "core/vector.h"
 #include "scene/builder.h"
+#include "scene/scene_printer.h"
 #include "tools/arguments.h"
 #include "tools/snapshots.h"
 
@@ -22,6 +23,7 @@ struct RenderSettings {
   std::vector<Snapshot> snapshots;
   int threads = 0;  ///< 0: all
   std::optional<Int2> pixel;
+  std::optional<PrintOptions> print;  ///< the scene, in place of rendering it
   std::string resume, checkpoint, statistics;
   double checkpointInterval = 60;
   bool quiet = false, verbose = false, quick = false;

@@ -107,7 +107,7 @@ TEST_F(Render, ExitCodes) {
   EXPECT_EQ(run("").code, 2);
   EXPECT_EQ(run("--spp 0 tiny.pbrt").code, 2);
   EXPECT_EQ(run("--spp many tiny.pbrt").code, 2);
-  EXPECT_EQ(run("--cat tiny.pbrt").code, 2);
+  EXPECT_EQ(run("--cat -o a.exr tiny.pbrt").code, 2);
   EXPECT_EQ(run("-o a.xyz tiny.pbrt").code, 2);
   EXPECT_EQ(run("--help").code, 0);
 
