@@ -15,10 +15,7 @@ struct BdptParameters {
     // Every pair of vertices is connected: more bounces than this would never end.
     d.add("maxdepth", maxDepth, "Longest path, in bounces.").range(0, 1000);
     declarePixelBounds(d, pixelBounds);
-    declareLightSampler(
-        d, lightSampler,
-        "Which light to sample at a vertex of the camera's path; see kind lightsampler. Paths "
-        "from lights start by power.");
+    declareVertexLightSampler(d, lightSampler);
     for (const char* name : {"visualizestrategies", "visualizeweights"})
       d.ignored(name, "no images of single strategies are written");
   }

@@ -22,4 +22,11 @@ inline void declareLightSampler(Declaration& d, std::string& name,
   d.add("lightsampler", name, std::move(doc)).alias("lightsamplestrategy").defaultIs("bvh");
 }
 
+/// For integrators that connect paths of the camera with paths of lights.
+inline void declareVertexLightSampler(Declaration& d, std::string& name) {
+  declareLightSampler(d, name,
+                      "Which light to sample at a vertex of the camera's path; see kind "
+                      "lightsampler. Paths from lights start by power.");
+}
+
 }  // namespace lampyris

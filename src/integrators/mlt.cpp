@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "integrators/common_parameters.h"
 #include "integrators/mlt_renderer.h"
 
 namespace lampyris {
@@ -23,11 +24,7 @@ struct MltParameters {
         .range(1e-6, 1);
     d.add("sigma", sigma, "Standard deviation of all other mutations, of numbers in [0, 1).")
         .range(1e-6, 1);
-    d.add("lightsampler", lightSampler,
-          "Which light to sample at a vertex of the camera's path; see kind lightsampler. Paths "
-          "from lights start by power.")
-        .alias("lightsamplestrategy")
-        .defaultIs("bvh");
+    declareVertexLightSampler(d, lightSampler);
   }
 };
 
