@@ -18,18 +18,25 @@ void onSignal(int) {
   if (interrupted.exchange(true)) _exit(kInterrupted);
 }
 
-}  // namespace
-
-const std::atomic<bool>& interruptFlag() {
-  // Errors of writing, as any other: a file that grows beyond a limit, a reader that has gone.
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
+void handle(void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = onSignal;
+  action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  return interrupted;
+}
+
+}  // namespace
+
+InterruptGuard::InterruptGuard() { handle(onSignal); }
+
+InterruptGuard::~InterruptGuard() { handle(SIG_DFL); }
+
+const std::atomic<bool>& InterruptGuard::flag() const { return interrupted; }
+
+void ignoreWriteSignals() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace lampyris

@@ -5,8 +5,20 @@
 
 namespace lampyris {
 
-/// From the first call on SIGINT and SIGTERM set the flag that is returned; a second signal ends
-/// the program at once.
-const std::atomic<bool>& interruptFlag();
+/// As long as one lives, the first SIGINT or SIGTERM sets flag() and the second ends the program at
+/// once; otherwise the first does. One at a time.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  const std::atomic<bool>& flag() const;
+};
+
+/// From here on a file that grows beyond a limit and a reader that has gone are errors of writing
+/// like any other.
+void ignoreWriteSignals();
 
 }  // namespace lampyris

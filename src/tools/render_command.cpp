@@ -65,6 +65,7 @@ class RenderSession {
   Statistics statistics_;
   Diagnostics diagnostics_;
   std::unique_ptr<RenderJob> job_;
+  std::optional<InterruptGuard> interrupt_;  ///< once the scene is loaded
   RunReport report_;
   uint64_t firstSample_ = 0;
   uint64_t fingerprint_ = 0;
@@ -122,7 +123,7 @@ RenderOptions RenderSession::renderOptions() {
   o.seconds = settings_.seconds;
   o.noise = settings_.noise;
   for (const Snapshot& s : settings_.snapshots) o.stops.push_back(s.stop);
-  o.cancel = &interruptFlag();
+  o.cancel = &interrupt_->flag();
   return o;
 }
 
@@ -151,7 +152,7 @@ uint64_t RenderSession::render(Film& film, const RenderOptions& options) {
   RenderContext context{job_->scene, *job_->camera, *job_->sampler, film, options, statistics_};
   const uint64_t samples = job_->integrator->render(context);
   report_.renderSeconds = statistics_.value("render", "seconds");
-  report_.interrupted = interruptFlag();
+  report_.interrupted = interrupt_->flag();
   return samples;
 }
 
@@ -236,6 +237,7 @@ int RenderSession::run() {
     checkIntegrator();
     report_.scene = scene_;
     report_.loadSeconds = secondsSince(start);
+    interrupt_.emplace();  // until here there is nothing to lose
     if (settings_.pixel) {
       renderPixel();
     } else {
@@ -265,7 +267,7 @@ int runRender(const Arguments& arguments) {
   const auto settings = parseRenderSettings(arguments);
   if (!settings) return kDone;
   if (settings->print) return runPrint(*settings);
-  interruptFlag();
+  ignoreWriteSignals();
   const ThreadLimit threads(settings->threads);
   for (const std::string& scene : settings->scenes) {
     const int code = RenderSession(*settings, scene).run();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -198,6 +200,26 @@ TEST_F(Render, InterruptedRendersWriteWhatThereIs) {
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(exists("part.pfm"));
   EXPECT_TRUE(exists("c"));
+}
+
+TEST_F(Render, WhileASceneIsLoadedTheFirstSignalEndsAll) {
+  ASSERT_EQ(mkfifo(path("endless.pbrt").c_str(), 0600), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(path("").c_str()) != 0) _exit(99);
+    execl(LAMPYRIS_BINARY, "lampyris", "--quiet", "endless.pbrt", nullptr);
+    _exit(99);
+  }
+  // Returns once the program reads.
+  const int writer = open(path("endless.pbrt").c_str(), O_WRONLY);
+  ASSERT_GE(writer, 0);
+  kill(child, SIGTERM);
+  int status = 0;
+  for (int i = 0; i < 2000 && waitpid(child, &status, WNOHANG) == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  close(writer);
+  EXPECT_TRUE(WIFSIGNALED(status)) << status;
+  if (!WIFSIGNALED(status)) kill(child, SIGKILL);
 }
 
 }  // namespace
