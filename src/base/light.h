@@ -7,6 +7,7 @@
 #include "base/interaction.h"
 #include "base/shape.h"
 #include "core/bounds.h"
+#include "core/huge_pages.h"
 #include "core/registry.h"
 #include "core/rgb.h"
 
@@ -137,9 +138,9 @@ class LightTable {
   };
   /// Adds a light and returns its first id.
   LightId add(const Light* light);
-  uint32_t size() const { return static_cast<uint32_t>(owner_.size()); }
+  uint32_t size() const { return size_; }
   Entry operator[](LightId id) const {
-    const Object& o = objects_[owner_[id]];
+    const Object& o = objects_[dense_ ? id : owner_[id]];
     return {o.light, id - o.firstId};
   }
   size_t objectCount() const { return objects_.size(); }
@@ -151,8 +152,11 @@ class LightTable {
     const Light* light;
     LightId firstId;
   };
-  std::vector<Object> objects_;
-  std::vector<uint32_t> owner_;  ///< index in objects_, per id
+  HugeVector<Object> objects_;
+  HugeVector<uint32_t> owner_;  ///< index in objects_, per id; empty while dense
+  uint32_t size_ = 0;
+  /// While every object is one light its id is its index: a cache miss less where objects are many.
+  bool dense_ = true;
 };
 
 }  // namespace lampyris

@@ -41,6 +41,21 @@ TEST(LightTable, GivesEachElementAnId) {
   EXPECT_EQ(table.firstId(1), 1u);
 }
 
+TEST(LightTable, OfSingleLightsAndOfNone) {
+  const DarkLight none(0), a(1), b(1);
+  LightTable single, late;
+  EXPECT_EQ(single.add(&a), 0u);
+  EXPECT_EQ(single.add(&b), 1u);
+  EXPECT_EQ(single.size(), 2u);
+  EXPECT_EQ(single[0].light, &a);
+  EXPECT_EQ(single[1].light, &b);
+  EXPECT_EQ(single[1].element, 0u);
+  EXPECT_EQ(late.add(&none), 0u);
+  EXPECT_EQ(late.add(&a), 0u);
+  EXPECT_EQ(late.add(&b), 1u);
+  EXPECT_EQ(late[1].light, &b);
+}
+
 class FixedDistribution final : public LightDistribution {
  public:
   std::optional<SampledLight> sample(const LightSampleContext&, float) const override {
