@@ -226,6 +226,15 @@ Image readExrLayer(const std::string& path, const std::string& layer) {
   });
 }
 
+ImagePlacement readExrPlacement(const std::string& path) {
+  const MappedFile bytes(path);
+  return withExrFile(path, bytes.text(), [](Imf::InputFile& file) {
+    const Imath::Box2i data = file.header().dataWindow(), whole = file.header().displayWindow();
+    const Imath::V2i offset = data.min - whole.min, size = whole.max - whole.min;
+    return ImagePlacement{{offset.x, offset.y}, {size.x + 1, size.y + 1}};
+  });
+}
+
 void writeExrImage(const std::string& path, const Image& image, const WriteOptions& options) {
   AtomicFile file(path);
   try {

@@ -21,10 +21,13 @@ struct Command {
   std::string_view name;
   int (*run)(const Arguments&);
 };
+int runHelp(const Arguments&) { return runRender({"--help"}); }
+
 constexpr std::array kCommands = {
+    Command{"assemble", runAssemble},    Command{"makesky", runMakeSky},
     Command{"compare", runCompare},      Command{"convert", runConvert},
     Command{"help-scene", runHelpScene}, Command{"info", runInfo},
-    Command{"lights", runLights},
+    Command{"lights", runLights},        Command{"help", runHelp},
 };
 
 int run(Arguments arguments) {

@@ -10,9 +10,11 @@
 namespace lampyris {
 
 int runRender(const Arguments& arguments);
+int runAssemble(const Arguments& arguments);
 int runCompare(const Arguments& arguments);
 int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
+int runMakeSky(const Arguments& arguments);
 int runLights(const Arguments& arguments);
 int runHelpScene(const Arguments& arguments);
 

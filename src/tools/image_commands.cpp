@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/image_layers.h"
+#include "core/math.h"
 #include "tools/commands.h"
 #include "tools/compare.h"
 #include "tools/error_image.h"
@@ -55,17 +56,71 @@ int runCompare(const Arguments& arguments) {
   return kDone;
 }
 
+namespace {
+
+struct Conversion {
+  float scale = 1, maxLuminance = 1;
+  bool flipY = false, toneMap = false;
+};
+
+/// Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 4: the luminance
+/// `white` and all above become 1.
+float toneMapped(float luminance, float white) {
+  return luminance * (1 + luminance / sqr(white)) / (1 + luminance);
+}
+
+/// All channels but alpha, in this order: flipped, scaled, tone-mapped.
+Image converted(const Image& image, const Conversion& how) {
+  Image out = image;
+  const int colours = image.channels() > 2 ? 3 : 1;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const int from = how.flipY ? image.height() - 1 - y : y;
+      const float luminance = how.scale * image.rgb(x, from).luminance();
+      const bool maps = how.toneMap && luminance > 0;
+      const float factor =
+          maps ? how.scale * toneMapped(luminance, how.maxLuminance) / luminance : how.scale;
+      for (int c = 0; c < image.channels(); ++c)
+        out.at(x, y, c) = image.at(x, from, c) * (c < colours ? factor : 1);
+    }
+  return out;
+}
+
+}  // namespace
+
 int runConvert(const Arguments& arguments) {
   std::string from, to, layer;
+  Conversion how;
   CLI::App app("Writes image A as B, in the format that B's ending says.", "lampyris convert");
   app.add_option("A", from, "Image to read")->required();
   app.add_option("B", to, "Image to write")->required();
   app.add_option("--layer", layer, "Layer of an EXR file to take instead of its image");
+  app.add_option("--scale", how.scale, "Factor on all values but alpha")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--flipy", how.flipY, "Turn the image upside down");
+  app.add_flag("--tonemap", how.toneMap, "Compress bright values (Reinhard et al. 2002)");
+  app.add_option("--maxluminance", how.maxLuminance, "Luminance that --tonemap turns into white")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   if (const auto code = parseArguments(app, arguments)) return *code;
   expectWritable(to);
-  writeImageFile(to, layer.empty() ? readLinearImage(from) : readExrLayer(from, layer));
+  const Image image = layer.empty() ? readLinearImage(from) : readExrLayer(from, layer);
+  writeImageFile(to, converted(image, how));
   return kDone;
 }
+
+namespace {
+
+void printExrParts(const std::string& path, const Image& image) {
+  const ImagePlacement place = readExrPlacement(path);
+  if (place.offset != Int2(0) || place.fullSize != Int2(image.width(), image.height()))
+    fmt::print("part of {} x {}, at {},{}\n", place.fullSize.x, place.fullSize.y, place.offset.x,
+               place.offset.y);
+  if (const auto layers = exrLayerNames(path); !layers.empty())
+    fmt::print("layers: {}\n", fmt::join(layers, ", "));
+}
+
+}  // namespace
 
 int runInfo(const Arguments& arguments) {
   std::string path;
@@ -87,9 +142,7 @@ int runInfo(const Arguments& arguments) {
   fmt::print("{}: {} x {}, {} channel{}, mean {:.6g}", path, image.width(), image.height(),
              channels, channels == 1 ? "" : "s", fmt::join(sum, " "));
   fmt::print("{}\n", bad > 0 ? fmt::format(", {} values not finite", bad) : "");
-  if (!std::filesystem::path(path).extension().compare(".exr"))
-    if (const auto layers = exrLayerNames(path); !layers.empty())
-      fmt::print("layers: {}\n", fmt::join(layers, ", "));
+  if (std::filesystem::path(path).extension() == ".exr") printExrParts(path, image);
   return kDone;
 }
 

@@ -15,8 +15,9 @@ namespace {
 
 constexpr const char* kFooter = R"(
 Subcommands (each with --help):
+  assemble FILE...   one image of those of several crop windows
   compare A B        how far an image is from a reference
-  convert A B        an image in another format
+  convert A B        an image in another format, scaled, flipped or tone-mapped
   info FILE          what an image file holds
   lights SCENE       what a scene's light tree looks like
   help-scene [KIND [NAME]]

@@ -112,6 +112,7 @@ TEST_F(Render, ExitCodes) {
   EXPECT_EQ(run("--cat -o a.exr tiny.pbrt").code, 2);
   EXPECT_EQ(run("-o a.xyz tiny.pbrt").code, 2);
   EXPECT_EQ(run("--help").code, 0);
+  EXPECT_EQ(run("help").out, run("--help").out);
 
   EXPECT_EQ(run("missing.pbrt").code, 3);
   const CommandResult folder = run("-o missing/a.exr tiny.pbrt");

@@ -55,6 +55,48 @@ TEST_F(Subcommand, InfoAndConvert) {
   EXPECT_EQ(run("info missing.exr").code, 3);
 }
 
+TEST_F(Subcommand, ConvertScalesFlipsAndToneMaps) {
+  Image image(2, 2, 4);
+  for (size_t i = 0; i < image.data().size(); ++i) image.data()[i] = static_cast<float>(i) / 4;
+  writeImageFile(path("a.exr").string(), image);
+  ASSERT_EQ(run("convert a.exr b.exr --scale 2 --flipy").code, 0);
+  const Image b = readLinearImage(path("b.exr").string());
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x)
+      for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(b.at(x, y, c), image.at(x, 1 - y, c) * (c < 3 ? 2.f : 1.f));
+  writeGrey(path("grey.pfm"), 3, 4);
+  ASSERT_EQ(run("convert grey.pfm white.pfm --tonemap --maxluminance 4").code, 0);
+  EXPECT_NEAR(readLinearImage(path("white.pfm").string()).at(0, 0, 1), 1, 1e-5);
+  ASSERT_EQ(run("convert grey.pfm dark.pfm --tonemap --maxluminance 1e9").code, 0);
+  EXPECT_NEAR(readLinearImage(path("dark.pfm").string()).at(0, 0, 1), 0.8, 1e-5);
+  EXPECT_EQ(run("convert grey.pfm b.pfm --scale -1").code, 2);
+}
+
+TEST_F(Subcommand, AssembleMakesTheWholeOfCropWindows) {
+  ASSERT_EQ(run("-q -o whole.exr tiny.pbrt").code, 0);
+  ASSERT_EQ(run("-q --crop 0 0.4 0 1 -o left.exr tiny.pbrt").code, 0);
+  ASSERT_EQ(run("-q --crop 0.4 1 0 0.5 -o top.exr tiny.pbrt").code, 0);
+  ASSERT_EQ(run("-q --crop 0.4 1 0.5 1 -o low.exr tiny.pbrt").code, 0);
+  EXPECT_NE(run("info top.exr").out.find("part of 24 x 16, at 10,0"), std::string::npos);
+  EXPECT_EQ(run("info whole.exr").out.find("part of"), std::string::npos);
+  const CommandResult r = run("assemble left.exr top.exr low.exr -o all.exr");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_EQ(readLinearImage(path("all.exr").string()).data(),
+            readLinearImage(path("whole.exr").string()).data());
+  EXPECT_NE(run("assemble left.exr top.exr -o b.exr").err.find("112 pixels are in no file"),
+            std::string::npos);
+  EXPECT_NE(run("assemble left.exr left.exr -o b.exr").err.find("160 pixels are in several"),
+            std::string::npos);
+  writeGrey(path("other.exr"), 5, 1);
+  EXPECT_EQ(run("assemble left.exr other.exr -o b.exr").code, 3);
+  writeGrey(path("a.pfm"), 24, 1);
+  EXPECT_EQ(run("assemble a.pfm -o b.exr").code, 2);
+  EXPECT_EQ(run("assemble left.exr").code, 2);
+  EXPECT_EQ(run("makesky -o sky.exr").code, 2);
+}
+
 TEST_F(Subcommand, HelpSceneKnowsEveryPlugin) {
   EXPECT_EQ(run("help-scene").code, 0);
   EXPECT_EQ(run("help-scene nokind").code, 2);
