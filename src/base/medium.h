@@ -56,13 +56,25 @@ struct MediumSample {
   Rgb weight{1};
 };
 
+/// What following rays through media by tracking costs.
+struct TrackingCounts {
+  uint64_t rays = 0;   ///< through media that are tracked
+  uint64_t steps = 0;  ///< tentative collisions
+
+  TrackingCounts& operator+=(const TrackingCounts& o) {
+    return rays += o.rays, steps += o.steps, *this;
+  }
+};
+
 /// Immutable and thread-safe. Rays are in world space with a unit direction; tMax may be infinite.
 class Medium {
  public:
   virtual ~Medium() = default;
-  virtual MediumSample sample(const Ray& ray, NumberSequence& numbers) const = 0;
+  virtual MediumSample sample(const Ray& ray, NumberSequence& numbers,
+                              TrackingCounts& counts) const = 0;
   /// Transmittance over (0, tMax), or an unbiased estimate of it.
-  virtual Rgb transmittance(const Ray& ray, NumberSequence& numbers) const = 0;
+  virtual Rgb transmittance(const Ray& ray, NumberSequence& numbers,
+                            TrackingCounts& counts) const = 0;
   virtual const PhaseFunction& phase() const = 0;
 };
 

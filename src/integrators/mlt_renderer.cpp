@@ -52,7 +52,7 @@ uint64_t MltRenderer::render() {
   bootstrap();
   // Nothing ends a render without limit if all is black.
   const uint64_t samples = chains_.empty() && target_ == 0 ? 0 : run();
-  report(total_.rays.closest, total_.rays.shadow);
+  report(total_.rays);
   total_.bad.report(context_.statistics);
   Statistics& s = context_.statistics;
   s.set("metropolis", "chains", static_cast<double>(chains_.size()));

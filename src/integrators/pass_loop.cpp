@@ -56,11 +56,12 @@ void PassLoop::tellProgress() {
   options_.onProgress(progress());
 }
 
-void PassLoop::report(uint64_t rays, uint64_t shadowRays) const {
+void PassLoop::report(const RayCounts& rays) const {
   Statistics& s = context_.statistics;
   const RenderProgress p = progress();
-  const auto paths = static_cast<double>(p.cameraPaths), rayCount = static_cast<double>(rays),
-             shadowCount = static_cast<double>(shadowRays);
+  const auto paths = static_cast<double>(p.cameraPaths),
+             rayCount = static_cast<double>(rays.closest),
+             shadowCount = static_cast<double>(rays.shadow);
   const auto rate = [&p](double count) { return p.seconds > 0 ? count / p.seconds : 0; };
   s.set("render", "samples per pixel", p.meanSamples);
   s.set("render", "seconds", p.seconds);
@@ -69,6 +70,10 @@ void PassLoop::report(uint64_t rays, uint64_t shadowRays) const {
   s.set("render", "rays", rayCount);
   s.set("render", "shadow rays", shadowCount);
   s.set("render", "rays per second", rate(rayCount + shadowCount));
+  if (rays.tracking.rays == 0) return;
+  const auto tracked = static_cast<double>(rays.tracking.rays);
+  s.set("media", "tracked rays", tracked);
+  s.set("media", "steps per ray", static_cast<double>(rays.tracking.steps) / tracked);
 }
 
 }  // namespace lampyris

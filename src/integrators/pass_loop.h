@@ -6,6 +6,7 @@
 
 #include "base/integrator.h"
 #include "integrators/pass_schedule.h"
+#include "integrators/render_loop.h"
 
 namespace lampyris {
 
@@ -47,7 +48,7 @@ class PassLoop {
   /// Tells who wants to know, not too often. From one thread at a time.
   void tellProgress();
   /// The statistics that all integrators have.
-  void report(uint64_t rays, uint64_t shadowRays) const;
+  void report(const RayCounts& rays) const;
 
   RenderContext& context_;
   const RenderOptions& options_;

@@ -84,7 +84,7 @@ class PassRenderer final : public PassLoop {
 
 uint64_t PassRenderer::render() {
   const uint64_t samples = run();
-  report(rays_.closest, rays_.shadow);
+  report(rays_);
   direct_.report(context_.statistics);
   bad_.report(context_.statistics);
   return samples;

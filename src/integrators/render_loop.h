@@ -7,6 +7,7 @@
 
 #include "base/bsdf.h"
 #include "base/integrator.h"
+#include "base/medium.h"
 
 namespace lampyris {
 
@@ -14,9 +15,10 @@ namespace lampyris {
 struct RayCounts {
   uint64_t closest = 0;  ///< nearest-hit queries
   uint64_t shadow = 0;   ///< occlusion queries
+  TrackingCounts tracking;
 
   RayCounts& operator+=(const RayCounts& o) {
-    return closest += o.closest, shadow += o.shadow, *this;
+    return closest += o.closest, shadow += o.shadow, tracking += o.tracking, *this;
   }
 };
 

@@ -11,7 +11,7 @@ Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSeque
   const Geometry& geometry = *scene.geometry;
   if (!scene.hasInterfaces) {
     if (geometry.occluded(ray)) return Rgb();
-    return medium ? medium->transmittance(ray, numbers) : Rgb(1);
+    return medium ? medium->transmittance(ray, numbers, rays.tracking) : Rgb(1);
   }
   Rgb share(1);
   for (int passed = 0; passed < kMaxInterfaces; ++passed) {
@@ -20,7 +20,7 @@ Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSeque
     if (medium) {
       Ray segment = ray;
       if (hit) segment.tMax = hit->shape.t;
-      share *= medium->transmittance(segment, numbers);
+      share *= medium->transmittance(segment, numbers, rays.tracking);
     }
     if (!hit || share.isBlack()) return share;
     const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);

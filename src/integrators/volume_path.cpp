@@ -131,12 +131,12 @@ VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float 
   segment.tMax = tMax;
   MediumSample s;
   if (path.distanceDrawn) {
-    s = path.medium->sample(segment, path.numbers);
+    s = path.medium->sample(segment, path.numbers, path.state.rays.tracking);
   } else {
     path.distanceDrawn = true;
     path.setDimension(kDistanceOffset);
     NumberSequence numbers = path.numbers.fork(path.stream.next2D());
-    s = path.medium->sample(segment, numbers);
+    s = path.medium->sample(segment, numbers, path.state.rays.tracking);
   }
   path.throughput *= s.weight;
   path.unguided *= s.weight;

@@ -5,8 +5,8 @@
 
 namespace lampyris {
 
-DensityGrid::DensityGrid(int nx, int ny, int nz, std::vector<float> values)
-    : n_{nx, ny, nz}, values_(std::move(values)) {
+DensityGrid::DensityGrid(int nx, int ny, int nz, std::vector<float> values, int boundCells)
+    : n_{nx, ny, nz}, values_(std::move(values)), coarse_(boundCells) {
   makeBounds();
 }
 
@@ -28,12 +28,14 @@ float DensityGrid::density(const Vec3& p) const {
 
 /// A value counts for all coarse cells that its cell's interpolation reaches: one cell around it.
 void DensityGrid::makeBounds() {
-  bounds_.assign(static_cast<size_t>(kCoarse) * kCoarse * kCoarse, 0.f);
+  bounds_.assign(
+      static_cast<size_t>(coarse_) * static_cast<size_t>(coarse_) * static_cast<size_t>(coarse_),
+      0.f);
   // The span of coarse cells, with room for rounding in track() and density().
   const auto span = [&](int i, size_t axis, int& first, int& last) {
     const double n = n_[axis];
-    first = std::clamp(static_cast<int>(std::floor((i - 0.51) / n * kCoarse)), 0, kCoarse - 1);
-    last = std::clamp(static_cast<int>(std::floor((i + 1.51) / n * kCoarse)), 0, kCoarse - 1);
+    first = std::clamp(static_cast<int>(std::floor((i - 0.51) / n * coarse_)), 0, coarse_ - 1);
+    last = std::clamp(static_cast<int>(std::floor((i + 1.51) / n * coarse_)), 0, coarse_ - 1);
   };
   for (int z = 0; z < n_[2]; ++z)
     for (int y = 0; y < n_[1]; ++y)

@@ -13,7 +13,7 @@ class HomogeneousMedium final : public Medium {
   explicit HomogeneousMedium(const MediumCoefficients& c)
       : scattering_(c.scattering), extinction_(c.extinction()), phase_(c.g) {}
 
-  MediumSample sample(const Ray& ray, NumberSequence& numbers) const override {
+  MediumSample sample(const Ray& ray, NumberSequence& numbers, TrackingCounts&) const override {
     const float channel = 3 * numbers.next();
     const float sigma = channel < 1 ? extinction_.r : channel < 2 ? extinction_.g : extinction_.b;
     const float t = -std::log1p(-numbers.next()) / sigma;  // σ = 0: infinite or, by 0/0, NaN
@@ -31,7 +31,7 @@ class HomogeneousMedium final : public Medium {
     return s;
   }
 
-  Rgb transmittance(const Ray& ray, NumberSequence&) const override {
+  Rgb transmittance(const Ray& ray, NumberSequence&, TrackingCounts&) const override {
     return transmittanceOver(ray.tMax);
   }
   const PhaseFunction& phase() const override { return phase_; }

@@ -29,7 +29,7 @@ Ray rayThroughCube(uint64_t i) {
 }
 
 TEST(DensityGrid, InterpolatesBetweenCentres) {
-  const DensityGrid grid(2, 1, 1, {1, 3});
+  const DensityGrid grid(2, 1, 1, {1, 3}, 16);
   EXPECT_FLOAT_EQ(grid.density(Vec3(0.25f, 0.5f, 0.5f)), 1);
   EXPECT_FLOAT_EQ(grid.density(Vec3(0.5f, 0.5f, 0.5f)), 2);
   EXPECT_FLOAT_EQ(grid.density(Vec3(0.25f, 0.5f, 0)), 0.5f);  // half way to nothing
@@ -37,7 +37,7 @@ TEST(DensityGrid, InterpolatesBetweenCentres) {
 
 TEST(DensityGrid, BoundsHoldAlongRays) {
   for (const int n : {1, 3, 16, 37}) {
-    const DensityGrid grid(n, n + 1, 2 * n, cloud(n, n + 1, 2 * n));
+    const DensityGrid grid(n, n + 1, 2 * n, cloud(n, n + 1, 2 * n), n == 3 ? 5 : 16);
     for (uint64_t i = 0; i < 200; ++i) {
       Ray ray = rayThroughCube(i);
       if (i % 4 == 0) ray.d = Vec3(0, 0, ray.o.z > 0.5f ? -1 : 1), ray.o.x = ray.o.y = 0.3f;
@@ -58,7 +58,8 @@ TEST(DensityGrid, BoundsHoldAlongRays) {
 }
 
 std::unique_ptr<Medium> make(const std::vector<float>& density, std::array<int32_t, 3> n,
-                             std::array<float, 3> absorption, std::array<float, 3> scattering) {
+                             std::array<float, 3> absorption, std::array<float, 3> scattering,
+                             int32_t boundCells = 16) {
   std::vector<Parameter> parameters;
   const auto add = [&](std::string_view name, ParameterType type) -> Parameter& {
     Parameter& p = parameters.emplace_back();
@@ -72,6 +73,7 @@ std::unique_ptr<Medium> make(const std::vector<float>& density, std::array<int32
   add("nx", ParameterType::Integer).integers = std::span(&n[0], 1);
   add("ny", ParameterType::Integer).integers = std::span(&n[1], 1);
   add("nz", ParameterType::Integer).integers = std::span(&n[2], 1);
+  add("boundcells", ParameterType::Integer).integers = std::span(&boundCells, 1);
   SourceFiles files;
   Diagnostics diagnostics(files, [](const std::string&) {});
   return mediumRegistry()
@@ -81,9 +83,10 @@ std::unique_ptr<Medium> make(const std::vector<float>& density, std::array<int32
 
 TEST(Heterogeneous, TrackingAgreesWithQuadrature) {
   const auto values = cloud(6, 5, 4);
-  const DensityGrid grid(6, 5, 4, values);
-  const auto medium = make(values, {6, 5, 4}, {0.5f, 0, 1}, {4, 1, 0.5f});
+  const DensityGrid grid(6, 5, 4, values, 16);
+  TrackingCounts counts;
   for (uint64_t r = 0; r < 5; ++r) {
+    const auto medium = make(values, {6, 5, 4}, {0.5f, 0, 1}, {4, 1, 0.5f}, r == 1 ? 1 : 16);
     const Ray ray = rayThroughCube(r);
     double depth = 0;
     for (int i = 0; i < 40'000; ++i) {
@@ -94,10 +97,10 @@ TEST(Heterogeneous, TrackingAgreesWithQuadrature) {
     std::vector<double> red, green, through, scattered;
     for (uint64_t i = 0; i < 20'000; ++i) {
       NumberSequence a(mixBits(2 * i + 1)), b(mixBits(2 * i + 2));
-      const Rgb t = medium->transmittance(ray, a);
+      const Rgb t = medium->transmittance(ray, a, counts);
       red.push_back(static_cast<double>(t.r));
       green.push_back(static_cast<double>(t.g));
-      const MediumSample s = medium->sample(ray, b);
+      const MediumSample s = medium->sample(ray, b, counts);
       ASSERT_TRUE(s.weight.isFinite());
       through.push_back(s.scatters ? 0 : static_cast<double>(s.weight.g));
       scattered.push_back(s.scatters ? static_cast<double>(s.weight.r) : 0);
@@ -109,6 +112,31 @@ TEST(Heterogeneous, TrackingAgreesWithQuadrature) {
   }
 }
 
+TEST(Heterogeneous, StepsAreAsManyAsTheBoundsAllow) {
+  // One of 16³ cells is full. A ray along it: σ steps a unit of length where its bound is.
+  constexpr int kSide = 16;
+  std::vector<float> values(kSide * kSide * kSide, 0.f);
+  values[(8 * kSide + 8) * kSide + 8] = 1;
+  const auto stepsPerRay = [&](int32_t boundCells) {
+    const auto medium = make(values, {kSide, kSide, kSide}, {0, 0, 0}, {40, 40, 40}, boundCells);
+    Ray ray;
+    ray.o = Vec3(-1, 9.4f / kSide, 9.4f / kSide);
+    ray.d = Vec3(1, 0, 0);
+    ray.tMax = 3;
+    std::vector<double> steps;
+    for (uint64_t i = 0; i < 4000; ++i) {
+      TrackingCounts counts;
+      NumberSequence numbers(mixBits(i));
+      medium->transmittance(ray, numbers, counts);
+      steps.push_back(static_cast<double>(counts.steps));
+    }
+    return steps;
+  };
+  // The density there is a hundredth of the bound at most: roulette ends no ray.
+  EXPECT_EQ(meanTest(stepsPerRay(1), 40), "");
+  EXPECT_EQ(meanTest(stepsPerRay(16), 40. * 3 / 16), "");
+}
+
 TEST(Heterogeneous, Mistakes) {
   EXPECT_THROW(make({1, 2}, {2, 2, 2}, {1, 1, 1}, {1, 1, 1}), SceneError);
   EXPECT_THROW(make({1, -2}, {2, 1, 1}, {1, 1, 1}, {1, 1, 1}), SceneError);
@@ -116,7 +144,10 @@ TEST(Heterogeneous, Mistakes) {
   // Empty space lets everything through.
   const auto empty = make({0, 0}, {2, 1, 1}, {1, 1, 1}, {1, 1, 1});
   NumberSequence numbers(1);
-  EXPECT_EQ(empty->transmittance(rayThroughCube(1), numbers), Rgb(1));
+  TrackingCounts counts;
+  EXPECT_EQ(empty->transmittance(rayThroughCube(1), numbers, counts), Rgb(1));
+  EXPECT_EQ(counts.rays, 1u);
+  EXPECT_EQ(counts.steps, 0u);
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ TEST(HenyeyGreenstein, StaysFiniteAtThePeak) {
 }
 
 TEST(Homogeneous, DistancesAndTransmittanceAgree) {
+  TrackingCounts counts;
   const float a[] = {0.1f, 0, 0.4f}, s[] = {0.5f, 0.3f, 2};
   MediumMaker maker;
   const auto medium = maker.make({rgb("sigma_a", a), rgb("sigma_s", s)});
@@ -67,12 +68,12 @@ TEST(Homogeneous, DistancesAndTransmittanceAgree) {
     Ray ray;
     ray.tMax = length;
     NumberSequence none(0);
-    const Rgb t = medium->transmittance(ray, none);
+    const Rgb t = medium->transmittance(ray, none, counts);
     EXPECT_FLOAT_EQ(t.g, std::exp(-0.3f * length));
     std::vector<double> through, scattered;
     for (uint64_t i = 0; i < 20'000; ++i) {
       NumberSequence numbers(i + 1, {uniform(3, i, 0), uniform(3, i, 1)});
-      const MediumSample m = medium->sample(ray, numbers);
+      const MediumSample m = medium->sample(ray, numbers, counts);
       ASSERT_TRUE(m.weight.isFinite());
       EXPECT_TRUE(!m.scatters || m.t < length);
       through.push_back(m.scatters ? 0 : static_cast<double>(m.weight.g));
@@ -85,6 +86,7 @@ TEST(Homogeneous, DistancesAndTransmittanceAgree) {
 }
 
 TEST(Homogeneous, InfiniteRaysAndEmptyChannels) {
+  TrackingCounts counts;
   const float a[] = {0, 0, 0}, s[] = {0, 1, 0};
   MediumMaker maker;
   const auto medium = maker.make({rgb("sigma_a", a), rgb("sigma_s", s)});
@@ -93,19 +95,20 @@ TEST(Homogeneous, InfiniteRaysAndEmptyChannels) {
   const int n = 20'000;
   for (int i = 0; i < n; ++i) {
     NumberSequence numbers(static_cast<uint64_t>(i));
-    const MediumSample m = medium->sample(ray, numbers);
+    const MediumSample m = medium->sample(ray, numbers, counts);
     ASSERT_TRUE(m.weight.isFinite());
     if (!m.scatters) through += static_cast<double>(m.weight.r) / n;
   }
   EXPECT_NEAR(through, 1, 0.02);  // 8 standard errors
   const auto vacuum = maker.make({rgb("sigma_a", a), rgb("sigma_s", a)});
   NumberSequence numbers(1);
-  const MediumSample m = vacuum->sample(ray, numbers);
+  const MediumSample m = vacuum->sample(ray, numbers, counts);
   EXPECT_FALSE(m.scatters);
   EXPECT_EQ(m.weight, Rgb(1));
 }
 
 TEST(Homogeneous, PresetsAndMistakes) {
+  TrackingCounts counts;
   MediumMaker maker;
   ASSERT_NE(findMeasuredMedium("Skin1"), nullptr);
   EXPECT_EQ(findMeasuredMedium("Skin1")->sigmaPrimeS, Rgb(0.74f, 0.88f, 1.01f));
@@ -118,7 +121,7 @@ TEST(Homogeneous, PresetsAndMistakes) {
   Ray ray;
   ray.tMax = 1;
   NumberSequence none(0);
-  EXPECT_FLOAT_EQ(maker.make({preset})->transmittance(ray, none).r, std::exp(-0.241f));
+  EXPECT_FLOAT_EQ(maker.make({preset})->transmittance(ray, none, counts).r, std::exp(-0.241f));
   EXPECT_EQ(maker.warnings, "");
   preset.strings = bad;
   maker.make({preset});
