@@ -113,6 +113,14 @@ TEST_F(Subcommand, HelpSceneKnowsEveryPlugin) {
     for (const PluginInfo* p : r->plugins()) {
       EXPECT_NE(reference.find("### `" + p->name + "`"), std::string::npos) << p->name;
       EXPECT_FALSE(p->summary.empty()) << p->name;
+      for (const ParameterDeclaration& d : p->schema.declarations()) {
+        if (!d.ignoredBecause.empty()) continue;
+        SCOPED_TRACE(p->name + " " + d.name);
+        EXPECT_TRUE(d.doc.ends_with('.')) << d.doc;
+        EXPECT_FALSE(d.typeText().empty());
+        EXPECT_TRUE(!d.defaultText.empty() || d.target == TargetType::String);
+        EXPECT_LE(d.min, d.max);
+      }
     }
 }
 
