@@ -34,6 +34,28 @@ void lobeOverCap(benchmark::State& state) {
 }
 BENCHMARK(lobeOverCap)->ArgName("clipped")->Arg(0)->Arg(1);
 
+void lobeOverEightCaps(benchmark::State& state) {
+  const auto all = caps(state.range(0));
+  std::vector<CapLanes> lanes;
+  for (size_t i = 0; i < all.size(); i += Float8::size()) {
+    const auto of = [&](const auto& value) {
+      return Float8([&](auto k) { return value(all[i + k]); });
+    };
+    lanes.push_back(
+        {of([](const auto& c) { return c.axis.x; }), of([](const auto& c) { return c.axis.y; }),
+         of([](const auto& c) { return c.axis.z; }), of([](const auto& c) { return c.sine; }),
+         of([](const auto& c) { return c.cosine(); }),
+         of([](const auto& c) { return c.versine; })});
+  }
+  const PivotLobe lobe = reflectionLobe(normalize(Vec3(1, 0, 1)), {0, 0, 1}, 0.1f, 1);
+  size_t i = 0;
+  for (auto _ : state) {
+    Float8 widest = 0;
+    benchmark::DoNotOptimize(PivotLobeLanes::mean(lobe, lanes[i++ % lanes.size()], widest));
+  }
+}
+BENCHMARK(lobeOverEightCaps)->ArgName("clipped")->Arg(0)->Arg(1);
+
 void cosineOverCap(benchmark::State& state) {
   const auto all = caps(state.range(0));
   size_t i = 0;

@@ -65,6 +65,13 @@ class WideLightBVH {
   float pmf(const LightReceiver& at, LightId light) const;
   /// About the luminance of the irradiance (W/m²) by all lights of the tree.
   float rootImportance(const LightReceiver& at) const;
+  /// For others that draw from the nodes: the light of a leaf, the nodes above a light
+  /// (wide_light_bvh_way.h), and the intensity that those of the root's children are relative to.
+  LightId lightAt(const WideLightBVHNode& node, size_t lane) const {
+    return lights_[node.light(lane)];
+  }
+  class Way;
+  float strongest() const { return strongest_; }
 
   /// Appends one light for each cluster of the point's cut, with its expected count.
   void sampleCut(const LightReceiver& at, double u, const LightSplitting& splitting,
@@ -78,7 +85,6 @@ class WideLightBVH {
 
  private:
   friend class WideLightBVHBuilder;
-  class Way;
   class Cut;
 
   /// Fetches all that a choice among the node's children may need next, while it is made.

@@ -13,6 +13,14 @@ constexpr float kHitBonus = 10;
 /// 1 / density; 0 if that is not positive. Densities near a mirror may overflow to infinity.
 float inverse(float density) { return density > 0 ? 1 / density : 0.f; }
 
+/// What the tree sees of a point that takes so many BRDF-aware samples: as they are drawn by what
+/// all lobes make of lights, each takes its part of the cut's work over.
+LightSampleContext seenByTree(const LightSampleContext& at, int samples) {
+  LightSampleContext tree = at;
+  tree.worth /= static_cast<float>(std::max(1, samples));
+  return tree;
+}
+
 }  // namespace
 
 void AdaptiveSettings::declare(Declaration& d) {
@@ -48,6 +56,7 @@ std::unique_ptr<LightDistribution> makeAdaptiveLights(const IntegratorContext& c
 /// A point at work.
 struct AdaptiveDirect::Point {
   const LightSampleContext& at;
+  LightSampleContext tree;
   const float time;
   SampleStream& stream;
   RenderState& state;
@@ -57,6 +66,7 @@ struct AdaptiveDirect::Point {
   bool cut = true;
   int samples = 0;  ///< N
   int hits = 1, misses = 1;
+  bool drawsLights = false;                                                  ///< some p_i > 0
   std::array<float, AdaptiveSettings::kMostSamples + 1> lightProbabilities;  ///< p_i
 
   Point(const LightSampleContext& context, float rayTime, SampleStream& numbers, RenderState& s)
@@ -66,10 +76,12 @@ struct AdaptiveDirect::Point {
         state(s),
         firstDimension(numbers.dimension()) {}
 
-  void look(const BrdfLightDistribution& lights) {
+  /// `least`: points whose glossy lobes have less albedo count as diffuse.
+  void look(const BrdfLightDistribution& lights, float least) {
     if (!BrdfReceiver::isWorthwhile(at)) return;
     receiver.emplace(at);
-    if (receiver->isGlossy()) brdf.emplace(lights, at, *receiver);
+    if (receiver->isGlossy() && receiver->glossyAlbedo() >= least)
+      brdf.emplace(lights, at, *receiver);
   }
 
   float count() const { return static_cast<float>(samples); }
@@ -79,7 +91,7 @@ struct AdaptiveDirect::Point {
     return count() * (p * byLights + (1 - p) * byBsdf);
   }
   float lightDensity(LightId light, float lightPdf) const {
-    return brdf ? brdf->pmf(light) * lightPdf : 0.f;
+    return drawsLights ? brdf->pmf(light) * lightPdf : 0.f;
   }
 };
 
@@ -129,19 +141,22 @@ float AdaptiveDirect::lightProbability(const Point& point, int i) const {
     case BrdfAllocation::Adaptive:
       break;
   }
+  if (i == 0) return 0;
   const auto misses = static_cast<float>(point.misses);
   return misses / (misses + kHitBonus * static_cast<float>(point.hits));
 }
 
-// A point's numbers: rounding of N, choice in the cut; then four a BRDF-aware sample; then two a
-// sample of the tree.
+// A point's numbers: rounding of N, choice in the cut; then four a BRDF-aware sample; then two for
+// the samples of the tree.
 AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, float time,
                                                Purpose purpose, SampleStream& stream,
                                                RenderState& state, Allocation& allocation) const {
   Point point(at, time, stream, state);
   point.cut = purpose != Purpose::ContinuedByOne;
-  point.look(lights_);
+  // One sample is all that less could be worth.
+  point.look(lights_, 1 / static_cast<float>(maxSamples_));
   point.samples = sampleCount(point, purpose, stream.next1D());
+  point.tree = seenByTree(at, point.samples);
   allocation = {point.samples, point.cut};
 
   if (state.aov) state.aov->beginLightVertex();
@@ -153,6 +168,7 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
     const bool continuation = purpose != Purpose::Ending && i + 1 == point.samples;
     float& p = point.lightProbabilities[static_cast<size_t>(i)];
     p = continuation ? 0 : lightProbability(point, i);
+    point.drawsLights = point.drawsLights || p > 0;
     counts.bsdfSamples += continuation && point.brdf;
     if (continuation) break;
     stream.setDimension(point.firstDimension + 2 + 4 * static_cast<uint32_t>(i));
@@ -175,7 +191,7 @@ Rgb AdaptiveDirect::brdfLightSample(Point& point, int i) const {
   const auto c = connectToLight(scene_, at, point.time, chosen->light, u, point.state.rays);
   if (!c) return Rgb();
   const float byBsdf = c->isDelta ? 0 : at.bsdf->pdf(at.wo, c->wi);
-  const float tree = treeDraws(at, point.cut, chosen->light) * c->pdf;
+  const float tree = treeDraws(point.tree, point.cut, chosen->light) * c->pdf;
   return c->value * inverse(tree + point.mixture(i, chosen->pmf * c->pdf, byBsdf));
 }
 
@@ -186,7 +202,7 @@ Rgb AdaptiveDirect::bsdfSample(Point& point, int i) const {
   Rgb found;
   if (s && !s->isSpecular() && s->pdf > 0 && !s->f.isBlack()) {
     const auto weight = [&](LightId light, float lightPdf) {
-      const float tree = treeDraws(at, point.cut, light) * lightPdf;
+      const float tree = treeDraws(point.tree, point.cut, light) * lightPdf;
       const float p = point.lightProbabilities[static_cast<size_t>(i)];
       const float byLights = p > 0 ? point.lightDensity(light, lightPdf) : 0;
       return inverse(tree + point.mixture(i, byLights, s->pdf));
@@ -223,14 +239,18 @@ Rgb AdaptiveDirect::treeSamples(Point& point) const {
   stream.setDimension(point.firstDimension + 3 + 4 * AdaptiveSettings::kMostSamples);
   const LightDistribution& tree = lights_.plain();
   if (!point.cut) {
-    const auto drawn = tree.sample(point.at, choice);
+    const auto drawn = tree.sample(point.tree, choice);
     return drawn ? treeSample(point, *drawn, stream.next2D()) : Rgb();
   }
   thread_local SampledLights drawn;
   drawn.clear();
-  tree.sampleCut(point.at, choice, drawn);
+  tree.sampleCut(point.tree, choice, drawn);
   Rgb sum;
-  for (const SampledLight& light : drawn) sum += treeSample(point, light, stream.next2D());
+  Vec2 u = stream.next2D();
+  for (const SampledLight& light : drawn) {
+    sum += treeSample(point, light, u);
+    u = nextInCut(u);
+  }
   return sum;
 }
 
@@ -254,7 +274,8 @@ float AdaptiveDirect::continuationWeight(const LightSampleContext& from,
                                          const Allocation& allocation, float bsdfPdf, LightId light,
                                          float lightPdf) const {
   // The path's throughput has been divided by the density already.
-  const float tree = treeDraws(from, allocation.cut, light) * lightPdf;
+  const LightSampleContext seen = seenByTree(from, allocation.samples);
+  const float tree = treeDraws(seen, allocation.cut, light) * lightPdf;
   return 1 / (tree / bsdfPdf + static_cast<float>(allocation.samples));
 }
 

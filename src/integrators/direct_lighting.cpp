@@ -73,12 +73,10 @@ const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float
 Rgb DirectLighting::cutSamples(const LightSampleContext& at, float time, float choice,
                                const Vec2& u, RayCounts& rays) const {
   Rgb sum;
-  Vec2 shifted = u;
+  Vec2 onLight = u;
   for (const SampledLight& chosen : drawCut(at, choice)) {
-    sum += lightSample(at, time, chosen, shifted, rays);
-    // Roberts 2018: a sequence with few gaps whatever its length.
-    shifted += Vec2(0.7548776662f, 0.5698402910f);
-    shifted -= glm::floor(shifted);
+    sum += lightSample(at, time, chosen, onLight, rays);
+    onLight = nextInCut(onLight);
   }
   return sum;
 }

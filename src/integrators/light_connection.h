@@ -25,6 +25,13 @@ Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light
 /// The same with a unit vector, for what is measured along the ray.
 Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& light);
 
+/// The next of a sequence in the unit square with few gaps whatever its length (Roberts 2018):
+/// points on the lights of one cut.
+inline Vec2 nextInCut(Vec2 u) {
+  u += Vec2(0.7548776662f, 0.5698402910f);
+  return u - glm::floor(u);
+}
+
 /// None where nothing arrives or nothing is scattered. at.bsdf must be set; `u` chooses the point
 /// of the light; `time` is that of the shadow ray.
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,

@@ -5,9 +5,15 @@ namespace lampyris {
 
 BrdfLightDistribution::BrdfLightDistribution(const BrdfParameters& parameters,
                                              const LightDistributionContext& context)
-    : tree_(makeLightTree(context)),
+    : BrdfLightDistribution(parameters, makeLightTree(context), context) {}
+
+BrdfLightDistribution::BrdfLightDistribution(const BrdfParameters& parameters, LightBVHAccel binary,
+                                             const LightDistributionContext& context)
+    : tree_(std::make_shared<const WideLightBVH>(makeWideLightTree(binary, context))),
       infinite_(context.lights),
-      plain_(makeBvhLights(parameters.tree, tree_, context)),
+      plain_(parameters.tree.tree == "binary"
+                 ? makeBvhLights(parameters.tree, std::move(binary), context)
+                 : makeWideBvhLights(parameters.tree, tree_, context)),
       cutThreshold_(parameters.cutThreshold) {
   for (size_t o = 0; o < context.lights.objectCount(); ++o) {
     const Light& light = context.lights.object(o);
@@ -35,7 +41,7 @@ BrdfVertex::BrdfVertex(const BrdfLightDistribution& lights, const LightSampleCon
       ctx_(ctx),
       receiver_(receiver),
       plain_(ctx),
-      cut_(lights.tree_.nodes(), receiver, lights.cutThreshold_),
+      cut_(*lights.tree_, receiver, lights.cutThreshold_),
       importance_(cut_.largestIntegral()) {
   const InfiniteLights& infinite = lights.infinite_;
   if (!infinite.empty()) {
@@ -66,9 +72,7 @@ float BrdfVertex::pmf(LightId light) const {
   const InfiniteLights& infinite = lights_.infinite_;
   if (infinite.contains(light))
     return infinite.pmf(plain_, light) * static_cast<float>(shareOfInfinite_);
-  const uint32_t leaf = lights_.tree_.leafOf(light);
-  if (leaf == LightBVHAccel::kNoLeaf) return 0;
-  const float pmf = cut_.pmf(receiver_, leaf);
+  const float pmf = cut_.pmf(receiver_, light);
   return infinite.empty() ? pmf : pmf * static_cast<float>(1 - shareOfInfinite_);
 }
 

@@ -1,118 +1,145 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightdistributions/brdf_cut.h"
 
-#include "accelerators/light_bvh.h"
+#include <numeric>
+#include <span>
+
+#include "accelerators/wide_light_bvh_way.h"
 
 namespace lampyris {
 
 namespace {
 
-/// A way down the tree from a cluster. Sampling and pmf both take it.
-class Descent {
- public:
-  Descent(std::span<const LinearLightBVHNode> nodes, const BrdfReceiver& at, uint32_t from,
-          bool flat)
-      : nodes_(nodes), at_(at), node_(from), flat_(flat) {}
-
-  uint32_t node() const { return node_; }
-  bool atLeaf() const { return nodes_[node_].isLeaf(); }
-  /// Goes to the child that choose(left importance, right importance, right child) says (true:
-  /// left). Returns the probability of that; 0 if no child can contribute.
-  template <class Choose>
-  double step(const Choose& choose) {
-    const uint32_t leftNode = node_ + 1, rightNode = nodes_[node_].rightChild();
-    // The next level's nodes, as in childImportances().
-    __builtin_prefetch(nodes_.data() + nodes_[leftNode].light());
-    __builtin_prefetch(nodes_.data() + nodes_[rightNode].light());
-    const BrdfReceiver::Estimate left = estimate(leftNode), right = estimate(rightNode);
-    const double sum = left.importance + right.importance;
-    if (!(sum > 0)) return 0;
-    const bool goLeft = choose(left.importance, right.importance, rightNode);
-    node_ = goLeft ? leftNode : rightNode;
-    flat_ = flat_ || (goLeft ? left : right).flat;
-    return (goLeft ? left : right).importance / sum;
+/// Takes one of several with a probability in proportion to its weight; not all are 0, `total` is
+/// their sum. Leaves a fresh variate in `u`.
+template <class Weights>
+size_t choose(const Weights& weights, double total, double& u) {
+  double left = u * total;
+  size_t chosen = 0;
+  double weight = 1;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    const auto w = static_cast<double>(weights[i]);
+    if (!(w > 0)) continue;
+    chosen = i, weight = w;
+    if (left < w) break;
+    left -= w;
   }
+  // Rounding may leave more than the last one has.
+  u = std::clamp(left / weight, 0., 1 - DBL_EPSILON);
+  return chosen;
+}
 
- private:
-  BrdfReceiver::Estimate estimate(uint32_t node) const {
-    if (!flat_) return at_.estimate(nodes_[node]);
-    return {at_.emission(nodes_[node])};
-  }
-  std::span<const LinearLightBVHNode> nodes_;
-  const BrdfReceiver& at_;
-  uint32_t node_;
-  bool flat_;
-};
+/// Of the children of a node below the cut; `flat`: of a cluster where the BSDF says nothing.
+BrdfReceiver::Weights weightsBelow(const WideLightBVHNode& node, const BrdfReceiver& at,
+                                   bool flat) {
+  return flat ? at.weighEmission(node) : at.weigh(node);
+}
+
+float intensityOf(const WideLightBVHNode& node, size_t lane) {
+  return std::bit_cast<float>(static_cast<uint32_t>(node.intensity[lane]) << 16);
+}
+/// Intensities are relative to a node's strongest child; they add up to that of the node.
+double sumOfIntensities(const WideLightBVHNode& node) {
+  float sum = 0;
+  for (size_t i = 0; i < WideLightBVHNode::kWidth; ++i) sum += intensityOf(node, i);
+  return static_cast<double>(sum);
+}
 
 }  // namespace
 
-BrdfCut::BrdfCut(std::span<const LinearLightBVHNode> nodes, const BrdfReceiver& at, float threshold)
-    : nodes_(nodes) {
-  if (nodes.empty()) return;
-  // No integral exceeds the albedo: beyond it only nodes that the point lies in are split.
-  const float last = at.glossyAlbedo();
-  while (!build(at, threshold, threshold >= last))
-    threshold = std::max(2 * threshold, 1e-3f * last);
+BrdfCut::BrdfCut(const WideLightBVH& tree, const BrdfReceiver& at, float threshold) : tree_(tree) {
+  if (tree.empty()) return;
+  look(0, static_cast<double>(tree.strongest()), at, threshold);
+  const auto byIntegral = [](const Wide& a, const Wide& b) { return a.integral < b.integral; };
+  while (wideCount_ > 0) {
+    Wide& next = *std::max_element(wide_.begin(), wide_.begin() + wideCount_, byIntegral);
+    if (partCount_ == kMostNodes) {
+      largest_ = std::max(largest_, next.integral);
+      break;
+    }
+    const Wide chosen = next;
+    next = wide_[--wideCount_];
+    split(chosen, at, threshold);
+  }
+  for (size_t i = 0; i < partCount_; ++i) {
+    totals_[i] = std::accumulate(parts_[i].weight.begin(), parts_[i].weight.end(), 0.);
+    total_ += totals_[i];
+  }
 }
 
-bool BrdfCut::build(const BrdfReceiver& at, float threshold, bool fillUp) {
-  size_ = 0;
-  total_ = 0;
-  largest_ = 0;
-  std::array<uint32_t, kCapacity> pending;
-  size_t count = 1;
-  pending[0] = 0;
-  while (count > 0) {
-    const uint32_t i = pending[--count];
-    const BrdfReceiver::Estimate e = at.estimate(nodes_[i]);
-    const bool wide = e.importance > 0 && (e.inside || e.integral > threshold);
-    if (wide && !nodes_[i].isLeaf()) {
-      if (size_ + count + 2 <= kCapacity) {
-        // The left one is taken next: clusters come in the order of their nodes.
-        pending[count++] = nodes_[i].rightChild();
-        pending[count++] = i + 1;
-        continue;
-      }
-      if (!fillUp) return false;
-    }
-    clusters_[size_++] = {i, e.flat, e.importance};
-    total_ += e.importance;
-    if (e.importance > 0) largest_ = std::max(largest_, e.integral);
+void BrdfCut::look(uint32_t number, double strongest, const BrdfReceiver& at, float threshold) {
+  const WideLightBVHNode& node = tree_.nodes()[number];
+  const BrdfReceiver::Weights weights = at.weigh(node);
+  const double unit = weights.unit * strongest;
+  Part& part = parts_[partCount_];
+  part.node = number;
+  part.flat = weights.flat;
+  part.strongest = strongest;
+  part.part.fill(kWhole);
+  for (size_t i = 0; i < kWidth; ++i) {
+    part.weight[i] = static_cast<double>(weights.importance[i]) * unit;
+    if (!(part.weight[i] > 0)) continue;
+    ++size_;
+    const float integral = weights.integral[i];
+    if (!node.isLeaf(i) && ((weights.inside >> i & 1) || integral > threshold))
+      wide_[wideCount_++] = {integral, static_cast<uint8_t>(partCount_), static_cast<uint8_t>(i)};
+    else
+      largest_ = std::max(largest_, integral);
   }
-  return true;
+  ++partCount_;
+}
+
+void BrdfCut::split(const Wide& which, const BrdfReceiver& at, float threshold) {
+  Part& part = parts_[which.part];
+  const WideLightBVHNode& node = tree_.nodes()[part.node];
+  const uint32_t child = node.child(which.lane);
+  part.weight[which.lane] = 0;
+  part.part[which.lane] = static_cast<uint8_t>(partCount_);
+  --size_;
+  const double own = part.strongest * static_cast<double>(intensityOf(node, which.lane));
+  look(child, own / sumOfIntensities(tree_.nodes()[child]), at, threshold);
 }
 
 std::optional<SampledLight> BrdfCut::sample(const BrdfReceiver& at, double u) const {
   if (!(total_ > 0)) return std::nullopt;
-  double left = u * total_;
-  const Cluster* chosen = nullptr;
-  for (size_t k = 0; k < size_; ++k) {
-    if (!(clusters_[k].importance > 0)) continue;
-    chosen = &clusters_[k];
-    if (left < chosen->importance) break;
-    left -= chosen->importance;
+  const size_t chosen = choose(std::span(totals_.data(), partCount_), total_, u);
+  const Part& part = parts_[chosen];
+  size_t lane = choose(part.weight, totals_[chosen], u);
+  double pmf = part.weight[lane] / total_;
+  bool flat = part.flat >> lane & 1;
+  const WideLightBVHNode* node = &tree_.nodes()[part.node];
+  while (!node->isLeaf(lane)) {
+    node = &tree_.nodes()[node->child(lane)];
+    const BrdfReceiver::Weights weights = weightsBelow(*node, at, flat);
+    const double total = weights.total();
+    if (!(total > 0)) return std::nullopt;
+    lane = choose(weights.importance, total, u);
+    pmf *= static_cast<double>(weights.importance[lane]) / total;
+    flat = flat || (weights.flat >> lane & 1);
   }
-  // Rounding may leave more than the last one has.
-  u = std::min(left / chosen->importance, 1 - DBL_EPSILON);
-  double pmf = chosen->importance / total_;
-  Descent way(nodes_, at, chosen->node, chosen->flat);
-  while (!way.atLeaf() && pmf > 0)
-    pmf *= way.step([&u](double l, double r, uint32_t) { return chooseFirst(l, r, u); });
-  if (!(pmf > 0)) return std::nullopt;
-  return SampledLight{nodes_[way.node()].light(), static_cast<float>(pmf)};
+  return SampledLight{tree_.lightAt(*node, lane), static_cast<float>(pmf)};
 }
 
-float BrdfCut::pmf(const BrdfReceiver& at, uint32_t leaf) const {
-  if (!(total_ > 0)) return 0;
-  const auto end = clusters_.begin() + static_cast<ptrdiff_t>(size_);
-  const Cluster& cluster =
-      *(std::upper_bound(clusters_.begin(), end, leaf,
-                         [](uint32_t node, const Cluster& c) { return node < c.node; }) -
-        1);
-  double pmf = cluster.importance / total_;
-  Descent way(nodes_, at, cluster.node, cluster.flat);
-  while (way.node() != leaf && pmf > 0)
-    pmf *= way.step([leaf](double, double, uint32_t right) { return leaf < right; });
+float BrdfCut::pmf(const BrdfReceiver& at, LightId light) const {
+  const WideLightBVH::Way way(tree_, light);
+  if (way.empty() || !(total_ > 0)) return 0;
+  const Part* part = parts_.data();
+  double pmf = 0;
+  bool flat = false;
+  way.follow(tree_, [&](const WideLightBVHNode& node, size_t lane) {
+    if (part) {
+      flat = part->flat >> lane & 1;
+      pmf = part->weight[lane] / total_;
+      const uint8_t next = part->part[lane];
+      part = next == kWhole ? nullptr : &parts_[next];
+      return part || pmf > 0;
+    }
+    const BrdfReceiver::Weights weights = weightsBelow(node, at, flat);
+    const auto weight = static_cast<double>(weights.importance[lane]);
+    pmf *= weight > 0 ? weight / weights.total() : 0;
+    flat = flat || (weights.flat >> lane & 1);
+    return pmf > 0;
+  });
   return static_cast<float>(pmf);
 }
 

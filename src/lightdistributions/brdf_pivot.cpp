@@ -61,6 +61,7 @@ PivotLobe::PivotLobe(const Vec3& axis, float width, const Vec3& horizon, float i
   const float height = dot(axis, horizon);
   horizonCosine_ = boosted(1 - height, 1);
   horizonLength_ = std::sqrt(1 + sqr(horizonCosine_));
+  horizonAngle_ = std::atan2(1.f, horizonCosine_);
   const float above = horizonCosine_ < 0
                           ? 0.5f * (horizonLength_ - horizonCosine_) / horizonLength_
                           : 0.5f / (horizonLength_ * (horizonLength_ + horizonCosine_));

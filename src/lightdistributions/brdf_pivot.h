@@ -67,6 +67,7 @@ class PivotLobe {
   float integral() const { return integral_; }
 
  private:
+  friend class PivotLobeLanes;
   /// The fourth component of a boosted cap: cos θ' |a'|. Both arguments are versines.
   float boosted(float toAxis, float capVersine) const {
     return halfK_ * (toAxis - capVersine) + halfWidth_ * (2 - toAxis - capVersine);
@@ -76,6 +77,7 @@ class PivotLobe {
   Vec3 axis_{0, 0, 1}, horizon_{0, 0, 1};
   float halfK_ = 0.5f, halfWidth_ = 0.5f;
   float horizonCosine_ = 0, horizonLength_ = 1;  ///< fourth component of the horizon's image, |n'|
+  float horizonAngle_ = 0.5f * kPi;              ///< angular radius of the horizon's image
   float integral_ = 0;
   float perSteradian_ = 0;  ///< amplitude / 4π
 };

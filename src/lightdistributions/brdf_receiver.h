@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Importance of a node of the light BVH for a point with a given BSDF and view direction: an
-/// estimate of the radiance that its lights cause.
+/// Importances of the children of a node of the wide light BVH for a point with a given BSDF and
+/// view direction: estimates of the radiance that their lights cause.
 ///
 /// Liu, Xu and Yan 2019, "Adaptive BRDF-Oriented Multiple Importance Sampling of Many Lights",
 /// eqs. 5 and 6: intensity × cos θ' / d² × the mean of BRDF × cosine over the node's bounding
@@ -8,14 +8,15 @@
 /// diffuse ones have their closed form, transmitted ones look to the other side.
 ///
 /// Deviations: intensity and emission factor are those of the plain tree; a floor keeps every light
-/// that may contribute, since lobes are fits. Cost: one square root and a dozen products a lobe
-/// more than the plain importance; arc functions where the horizon cuts a node.
+/// that may contribute, since lobes are fits. Cost: eight children at once, with two square roots
+/// and two dozen operations a lobe more than their plain importances; arc functions where the
+/// horizon cuts a child.
 #pragma once
 
 #include <array>
 
-#include "accelerators/light_bvh_importance.h"
-#include "lightdistributions/brdf_pivot.h"
+#include "accelerators/wide_light_bvh_importance.h"
+#include "lightdistributions/brdf_pivot_lanes.h"
 
 namespace lampyris {
 
@@ -33,28 +34,26 @@ class BrdfReceiver {
   float albedo() const { return albedo_; }
   float glossyAlbedo() const { return glossyAlbedo_; }
 
-  struct Estimate {
-    double importance = 0;  ///< ≥ 0, finite; > 0 if any light of the node contributes
-    float integral = 0;     ///< of the glossy lobes over the node's sphere; all if inside of it
-    bool inside = false;    ///< the point lies within the sphere
-    bool flat = false;      ///< BRDF × cosine is about the same for all the node's lights
+  /// Of a node's children; 0 where there is none.
+  struct Weights {
+    /// ≥ 0, finite; > 0 if any light of the child contributes. But for the factor `unit`.
+    alignas(32) std::array<float, WideLightBVHNode::kWidth> importance;
+    /// Of the glossy lobes over the child's bounding sphere; all if inside of it.
+    alignas(32) std::array<float, WideLightBVHNode::kWidth> integral;
+    uint8_t inside;  ///< as bits: the point lies within the sphere
+    uint8_t flat;    ///< as bits: BRDF × cosine is about the same for all the child's lights
+    double unit;     ///< factor of importances; itself but for the node's strongest intensity
+
+    double total() const;
   };
-  Estimate estimate(const LinearLightBVHNode& node) const;
-  /// The same without the BSDF, for parts of a flat node: 0 where importance is, or > 0.
-  double emission(const LinearLightBVHNode& node) const {
-    const Vec3 d = node.center() - p_;
-    return oneSided_ && isBehind(node, d) ? 0 : emission_.importance(node);
-  }
+  Weights weigh(const WideLightBVHNode& node) const;
+  /// The same without the BSDF, for parts of a flat child; no integrals.
+  Weights weighEmission(const WideLightBVHNode& node) const;
 
  private:
   void addShapes(const Bsdf& bsdf, const Vec3& wo);
   void addLobe(const LobeShape& shape, const Vec3& wo);
-  /// All of the node's box is; some ulps for the rounding of the terms.
-  bool isBehind(const LinearLightBVHNode& node, const Vec3& d) const {
-    const Vec3 n = glm::abs(side_);
-    return dot(side_, d) + dot(n, node.halfExtent()) < -1e-6f * dot(n, glm::abs(d));
-  }
-  float meanOfCosines(const DirectionCap& cap) const;
+  Float8 meanOfCosines(const CapLanes& caps) const;
 
   Vec3 p_;
   LightReceiver emission_;  ///< of any orientation: for what leaves the node alone

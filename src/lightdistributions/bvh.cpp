@@ -28,9 +28,9 @@ namespace {
 template <class Tree>
 class BvhLightDistribution : public LightDistribution {
  public:
-  BvhLightDistribution(Tree tree, const LightTable& lights,
+  BvhLightDistribution(std::shared_ptr<const Tree> tree, const LightTable& lights,
                        LightFactors factors = LightFactors::Mean)
-      : tree_(std::move(tree)), infinite_(lights), factors_(factors) {}
+      : owner_(std::move(tree)), tree_(*owner_), infinite_(lights), factors_(factors) {}
 
   std::optional<SampledLight> sample(const LightSampleContext& ctx, float u) const override {
     const LightReceiver at(ctx, factors_);
@@ -58,7 +58,8 @@ class BvhLightDistribution : public LightDistribution {
     return drawn;
   }
 
-  const Tree tree_;
+  const std::shared_ptr<const Tree> owner_;
+  const Tree& tree_;
   const InfiniteLights infinite_;
   const LightFactors factors_;
 };
@@ -66,7 +67,8 @@ class BvhLightDistribution : public LightDistribution {
 /// Several lights a point: one of each cluster, and one of those without a position.
 class SplittingLightDistribution final : public BvhLightDistribution<WideLightBVH> {
  public:
-  SplittingLightDistribution(WideLightBVH tree, const LightTable& lights, LightSplitting splitting)
+  SplittingLightDistribution(std::shared_ptr<const WideLightBVH> tree, const LightTable& lights,
+                             LightSplitting splitting)
       : BvhLightDistribution(std::move(tree), lights), splitting_(splitting) {}
 
   bool splits() const override { return true; }
@@ -98,12 +100,18 @@ std::unique_ptr<LightDistribution> makeBvhLights(const BvhParameters& p, LightBV
     const LightFactors factors = p.factors == "mean"    ? LightFactors::Mean
                                  : p.factors == "bound" ? LightFactors::Bound
                                                         : LightFactors::Thesis;
-    return std::make_unique<BvhLightDistribution<LightBVHAccel>>(std::move(binary), context.lights,
-                                                                 factors);
+    return std::make_unique<BvhLightDistribution<LightBVHAccel>>(
+        std::make_shared<const LightBVHAccel>(std::move(binary)), context.lights, factors);
   }
+  return makeWideBvhLights(
+      p, std::make_shared<const WideLightBVH>(makeWideLightTree(binary, context)), context);
+}
+
+std::unique_ptr<LightDistribution> makeWideBvhLights(const BvhParameters& p,
+                                                     std::shared_ptr<const WideLightBVH> tree,
+                                                     const LightDistributionContext& context) {
   if (p.factors != "mean")
     throw SceneError(context.location, "\"factors\" other than \"mean\" need \"tree\" \"binary\"");
-  WideLightBVH tree = makeWideLightTree(binary, context);
   const LightSplitting splitting(p.splitThreshold, static_cast<uint32_t>(p.maxCut));
   if (splitting.never())
     return std::make_unique<BvhLightDistribution<WideLightBVH>>(std::move(tree), context.lights);

@@ -19,5 +19,9 @@ struct BvhParameters {
 std::unique_ptr<LightDistribution> makeBvhLights(const BvhParameters& parameters,
                                                  LightBVHAccel binary,
                                                  const LightDistributionContext& context);
+/// The same with a wide tree that others may use too.
+std::unique_ptr<LightDistribution> makeWideBvhLights(const BvhParameters& parameters,
+                                                     std::shared_ptr<const WideLightBVH> tree,
+                                                     const LightDistributionContext& context);
 
 }  // namespace lampyris
