@@ -61,8 +61,9 @@ def measure(suite, runner, first_seed):
         try:
             file = runner.scene_file(s)
             references = schedule.reference_halves(runner, suite, s, file)
-            found = schedule.scene_runs(runner, suite, s, file, references, first_seed)
-            yield summary.scene(suite, s, runner.scene_hash(file), references, found, images.Folder(runner.out))
+            files = images.Folder(runner.out, schedule.mask(runner, suite, s, file))
+            found = schedule.scene_runs(runner, suite, s, file, references, files, first_seed)
+            yield summary.scene(suite, s, runner.scene_hash(file), references, found, files)
         except (Failed, OSError, ValueError, subprocess.CalledProcessError) as e:
             runner.say("  the scene is left out: %s" % e)
 

@@ -19,8 +19,14 @@ def load(path):
 class Folder:
     """Where the images are that results name."""
 
-    def __init__(self, path): self.path = path
-    def image(self, name): return load(os.path.join(self.path, name))
+    def __init__(self, path, mask=None):
+        """`mask` [row, column, 1]: what each pixel counts, 0 or 1."""
+        self.path, self.mask = path, mask
+    def image(self, name):
+        """Black where the pixel doesn't count: in all images alike, so that no error is there."""
+        whole = load(os.path.join(self.path, name))
+        return whole if self.mask is None else whole * self.mask
+    def counted_share(self): return 1. if self.mask is None else float(self.mask.mean())
     def layers(self, name): return exr.read(os.path.join(self.path, name))
 
 

@@ -22,18 +22,29 @@ def reference_halves(runner, suite, scene, file):
                           depends_on_binary=False) for k in (0, 1)]
 
 
-def held_against(reference):
+def mask(runner, suite, scene, file):
+    """None, or an array [row, column, 1]: 0 where a pixel counts nowhere, else 1."""
+    if not suite.mask: return None
+    define, limit = tuple(suite.scene_define(scene) + suite.mask.define), ("--spp", str(suite.mask.spp))
+    key = key_of(runner.scene_hash(file), define, limit)[:8]
+    stem = os.path.splitext(os.path.basename(file))[0]
+    record = runner.render(Task("references/%s-%s-mask" % (stem, key), file, define, limit, REFERENCE_SEED),
+                           depends_on_binary=False)
+    return (images.load(runner.path(record["image"])).max(axis=2, keepdims=True) == 0).astype(float)
+
+
+def held_against(reference, files):
     """What makes of a record's snapshots the points of a curve: their errors stay, their images go."""
     def digest(record):
         record["curve"] = []
         for shot in record["stats"].get("snapshots", []):
-            errors = measures.errors(images.load(shot["file"]), reference)
+            errors = measures.errors(files.image(shot["file"]), reference)
             record["curve"].append({"seconds": shot["seconds"], "spp": shot["spp"], **errors})
             os.remove(shot["file"])
     return digest
 
 
-def scene_runs(runner, suite, scene, file, references, first_seed=1):
+def scene_runs(runner, suite, scene, file, references, files, first_seed=1):
     """{variant: {"runs": [record], "aovs": record or None, "failed": text}}.
 
     A repetition runs every variant once before the next begins, and each begins with another variant: what
@@ -41,7 +52,8 @@ def scene_runs(runner, suite, scene, file, references, first_seed=1):
     variants = suite.scene_variants(scene)
     found = {v.name: {"runs": [], "aovs": None, "failed": ""} for v in variants}
     paths = [runner.path(r["image"]) for r in references]
-    judge, digest = key_of(*map(content_hash, paths)), held_against(sum(map(images.load, paths)) / len(paths))
+    judge = key_of(*map(content_hash, paths), files.counted_share())
+    digest = held_against(sum(map(files.image, paths)) / len(paths), files)
     seconds, snapshots = suite.scene_seconds(scene), tuple(suite.snapshot_seconds(scene))
 
     def attempt(variant, name, limit, **options):

@@ -59,6 +59,7 @@ class Suite:
     threads: int = 0
     define: list = field(default_factory=list)
     snapshots: int = 6
+    mask: Reference = None  # a render: pixels that are not black in it count nowhere
 
     def scene_variants(self, scene):
         """The variants to run, the base first, then as listed."""
@@ -88,9 +89,10 @@ class Suite:
         """Of all renders, loading left out; and how many renders these are."""
         references = {(s.file, *s.generate, *self.scene_define(s), *self.scene_reference(s).define):
                       2 * self.scene_reference(s).seconds for s in self.scenes}
+        masks = len({(s.file, *s.generate) for s in self.scenes}) if self.mask else 0
         runs = [(self.scene_seconds(s), len(self.scene_variants(s))) for s in self.scenes]
         return (sum(references.values()) + sum(t * n * (self.repetitions + AOV_SHARE) for t, n in runs),
-                2 * len(references) + sum(n * (self.repetitions + 1) for _, n in runs))
+                2 * len(references) + masks + sum(n * (self.repetitions + 1) for _, n in runs))
 
 
 def _made(kind, data, where):
@@ -105,6 +107,7 @@ def _made(kind, data, where):
 def parse(data, where="suite", quick=False):
     suite = _made(Suite, data, where)
     suite.reference = _made(Reference, suite.reference, where + ", reference")
+    if suite.mask: suite.mask = _made(Reference, suite.mask, where + ", mask")
     suite.variants = [_made(Variant, v, where + ", variants") for v in suite.variants]
     suite.scenes = [_made(Scene, {**s, **(s.get("quick", {}) if quick else {})}, where + ", scenes") for s in suite.scenes]
     for s in suite.scenes:
@@ -121,6 +124,7 @@ def _check(suite, where):
             if not n or os.path.basename(n) != n or n.startswith("."):
                 raise SuiteError("%s: '%s' is no name for a folder" % (where, n))
         if len(set(listed)) < len(listed): raise SuiteError("%s: two %ss of one name" % (where, kind))
+    if suite.mask and not (suite.mask.spp and not suite.mask.seconds): raise SuiteError("%s: a mask has 'spp'" % where)
     for s in suite.scenes:
         if bool(s.file) == bool(s.generate): raise SuiteError("scene %s: either 'file' or 'generate'" % s.name)
         here = s.variants or names

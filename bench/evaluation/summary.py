@@ -118,6 +118,7 @@ def scene(suite, scene, file_hash, references, found, files):
         v["equal_samples"] = _equal_samples(base["runs"], v["runs"], floor)
     return {"name": scene.name, "title": scene.title or scene.name, "hash": file_hash, "base": base["name"],
             "seconds": suite.scene_seconds(scene), "define": suite.scene_define(scene), **_facts(found),
+            "counted_share": files.counted_share(),
             "reference": {"define": suite.scene_reference(scene).define, "images": [r["image"] for r in references],
                           "spp": [_statistics(r, "render", "samples per pixel") for r in references],
                           "seconds": sum(r["stats"]["seconds"]["render"] for r in references), "floor": floor},

@@ -88,6 +88,12 @@ def ratio_cells(scene, v, best):
     return [cell(*times(v["against_base"]["trimmed"]), kind), cell(ratio, ends + at)]
 
 
+def masked(scene):
+    """Which pixels count, if not all."""
+    share = scene.get("counted_share", 1.)
+    return "" if share == 1 else "Errors and means are those of %s %% of the pixels; the suite masks the others. " % number(100 * share)
+
+
 def scene_table(scene, colour_of):
     with_lights = any(v["light_statistics"] for v in scene["variants"] if v["runs"])
     heads = ["time", "spp, samples", *(METRIC_TITLES[m] for m in METRICS), "mean", "at equal time",
@@ -96,10 +102,10 @@ def scene_table(scene, colour_of):
     caption = ("Medians of the runs; errors are means, with 95 %% intervals below. <b>Mean</b> is the ratio to the "
                "reference's, z its distance from 1 in standard deviations. <b>At equal time</b>: how many times less time "
                "it needs than <i>%s</i> for the same %s; <b>at equal spp</b>: how many times smaller that error is, at the most samples "
-               "that all runs of both have. <b>Entropy</b> of the choice of a light, in bits, and how many <b>lights</b> are drawn: means "
-               "over the points where lights are sampled. The "
+               "that all runs of both have. %s<b>Entropy</b> of the choice of a light, in bits, and how many <b>lights</b> are "
+               "drawn: means over the points where lights are sampled. The "
                "reference's own error: %s." % (
-                   html.escape(scene["base"]), METRIC_TITLES["trimmed"],
+                   html.escape(scene["base"]), METRIC_TITLES["trimmed"], masked(scene),
                    ", ".join("%s %s" % (METRIC_TITLES[m], number(floor[m], 2)) for m in METRICS)))
     return table(caption, "<th>light sampler</th>" + "".join("<th>%s</th>" % h for h in heads),
                  "".join(variant_rows(scene, colour_of, with_lights)))

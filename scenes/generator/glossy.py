@@ -169,10 +169,27 @@ def lamp(lights, rng):
             BLACK, area_light(joined([tube(stalk(), steps, sides, .004) for _ in range(stalks)]), (30, 26, 20))]
 
 
+def staircase(lights, rng):
+    """Polished steps between two large panels, and a few small lamps: four triangles, the rest spheres."""
+    wood = FLOOR % (.3, .18, .09, .08, .08, .08, .08, .08)
+    out = [HEAD % ("-.6 -4.6 1.9  .1 0 1.15  0 0 1", 44, "staircase", 320, 400), 'Material "matte" "rgb Kd" [.65 .63 .6]\n',
+           quad((-2, 3, 0), (2, 3, 0), (2, 3, 4), (-2, 3, 4)), quad((-2, -5, 0), (-2, 3, 0), (-2, 3, 4), (-2, -5, 4)),
+           quad((2, -5, 0), (2, -5, 4), (2, 3, 4), (2, 3, 0)), quad((-2, -5, 4), (-2, 3, 4), (2, 3, 4), (2, -5, 4)),
+           wood, floor_quad(5), *[cuboid((-1, -1 + .35 * k, 0), (1.2, 3, .2 * (k + 1))) for k in range(10)],
+           METAL % (.2, .9, 1.1, 3.9, 2.4, 2.2, .15), *[sphere(1.1, -.9 + .7 * k, .85 + .4 * k, .09) for k in range(5)],
+           PLASTIC % (.2, .3, .35, .4, .4, .4, .05), knot((-1.45, -.2, .45), .5), BLACK,
+           area_light(quad((-1.99, -2.5, 1), (-1.99, -.5, 1), (-1.99, -.5, 3), (-1.99, -2.5, 3)), (8, 9, 11)),
+           area_light(quad((-.8, -2, 3.99), (-.8, 0, 3.99), (.8, 0, 3.99), (.8, -2, 3.99)), (10, 9, 7))]
+    for k in range(max(1, lights - 4)):
+        out.append(glow_worm(1.9, rng.uniform(-2.5, 2.6), rng.uniform(1, 3.6), .03, (40, 33, 24)))
+    return out
+
+
 SCENES = {"spiral": ("A metal figure within a luminous spiral", 6912, spiral),
           "exhibition": ("A lacquered car among small lamps, under a panel", 43202, exhibition),
           "cornell": ("Plastic figures between two walls of tiny lamps", 1494, cornell),
-          "lamp": ("Luminous stalks that grow out of a box", 53760, lamp)}
+          "lamp": ("Luminous stalks that grow out of a box", 53760, lamp),
+          "staircase": ("Polished steps between two large panels", 21, staircase)}
 
 
 def write(folder, name, lights=None):

@@ -21,8 +21,9 @@ try:
 except ImportError:
     print("SKIPPED: numpy is missing (Debian: python3-numpy)")
     sys.exit(0)
-from evaluation import agreement, colours, exr, heatmaps, images, intervals, measures, plots, suite as suites, tables  # noqa: E402
-from generator import splitting, thesis  # noqa: E402
+from evaluation import agreement, colours, exr, heatmaps, images, intervals, markdown, measures, plots  # noqa: E402
+from evaluation import suite as suites, tables  # noqa: E402
+from generator import glossy, splitting, thesis  # noqa: E402
 
 
 def noisy(rng, sigma, shape=(40, 50, 3)): return 1 + rng.normal(0, sigma, shape)
@@ -183,6 +184,15 @@ class Pictures(unittest.TestCase):
             f.flush()
             self.assertEqual(images.load(f.name).tolist(), [[[4, 5, 6]], [[1, 2, 3]]])
 
+    def test_masked_pixels_are_black(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "a.pfm"), "wb") as f:
+                f.write(b"Pf\n1 2\n-1.0\n" + np.array([1, 2], "<f4").tobytes())
+            half = images.Folder(folder, np.array([[[0.]], [[1.]]]))
+            self.assertEqual(half.image("a.pfm")[:, :, 0].tolist(), [[0], [1]])
+            self.assertEqual(half.counted_share(), .5)
+            self.assertEqual(images.Folder(folder).image("a.pfm")[:, :, 0].tolist(), [[2], [1]])
+
     def test_false_colours_get_lighter(self):
         grey = colours.palette() @ (.2126, .7152, .0722)
         self.assertTrue((np.diff(grey) > 0).all())
@@ -230,7 +240,7 @@ class SuiteFiles(unittest.TestCase):
         for name in os.listdir(folder):
             for scene in suites.read(os.path.join(folder, name)).scenes:
                 family, made = scene.generate
-                self.assertIn(made.partition("=")[0], {"thesis": thesis, "splitting": splitting}[family].SCENES)
+                self.assertIn(made.partition("=")[0], {"glossy": glossy, "thesis": thesis, "splitting": splitting}[family].SCENES)
 
     def test_faults_are_told(self):
         good = {"name": "s", "base": "a", "variants": [{"name": "a"}], "scenes": [{"name": "x", "file": "x.pbrt"}],
@@ -397,6 +407,14 @@ class WholeSuites(unittest.TestCase):
         self.assertEqual(rows[2][3], "%s× (%s)" % (plots.number(told["value"]), tables.interval(told["ci"])))
         self.assertEqual(rows[2][5], "failed")
         self.assertEqual(rows[4][0], "geometric mean of 2")
+
+    def test_rmse_is_that_at_equal_time(self):
+        with open(os.path.join(self.folder, "out", "results.json")) as f: results = json.load(f)
+        told = results["scenes"][0]["variants"][1]["against_base"]["mse"]
+        entry = markdown.rmse(results).splitlines()[2].split("|")[4].strip()
+        self.assertEqual(entry, "%.2f (%.2f – %.2f)" % tuple(
+            v ** -.5 for v in (told["value"], told["ci"][1], told["ci"][0])))
+        self.assertLess(told["value"] ** -.5, 1)
 
 
 if __name__ == "__main__":
