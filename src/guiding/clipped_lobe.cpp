@@ -117,7 +117,7 @@ float lobePower(int level, const Vec3& axis, const Vec3& w) {
   if (!(c > 0)) return 0;
   if (level == 0) return static_cast<float>(c);
   double power = level % 2 ? c * c : c * c * c;
-  for (int k = (level - 1) / 2; k > 0; --k) power *= power;
+  for (int k = lobeSquarings(level); k > 0; --k) power *= power;
   return static_cast<float>(power);
 }
 

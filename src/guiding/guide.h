@@ -36,8 +36,13 @@ class DirectionWeight {
 struct GuideSample {
   Vec3 p{0}, n{0};  ///< as in GuidePoint, but n on the side of wi
   Vec3 wi{0};
-  float radiance = 0;  ///< luminance; finite, ≥ 0
-  float pdf = 0;       ///< by solid angle, with which wi was drawn; > 0
+  float radiance = 0;   ///< luminance; finite, ≥ 0
+  float pdf = 0;        ///< by solid angle, with which wi was drawn; > 0
+  float ownPdf = 0;     ///< of the BSDF or phase function alone
+  float guidePdf = -1;  ///< of the guide alone; < 0: none was there
+  /// Luminance of BSDF × |cos| (or phase function) × all light found that way, with the share of
+  /// direct light that is not left to light sampling.
+  float gain = 0;
 };
 
 /// A guide's distribution at one point; one object serves a thread for all its points.

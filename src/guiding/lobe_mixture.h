@@ -18,19 +18,29 @@ class LobeMixture final : public LocalGuide {
   float pdf(const Vec3& wi) const override;
 
  private:
-  struct Lobe {
-    Vec3 axis;
-    Vec3 n;  ///< it counts where dot(w, n) > 0; zero: everywhere
-    int level;
-    float weight;         ///< share in the mixture
-    float normalisation;  ///< weight / V
+  /// Lobes on one side of a surface, or of a medium, by parts: loops over lobes use vector
+  /// instructions.
+  struct Side {
+    static constexpr size_t kMost = SignificanceCache::kMostNearest;
+    /// Loops run over whole vectors; what stands behind the last lobe has no weight.
+    static constexpr size_t kLanes = 8;
+
+    float total = 0;  ///< sum of the weights
+    size_t count = 0;
+    int squarings = 0;  ///< the most of any lobe
+    alignas(64) std::array<float, kMost> x, y, z;
+    std::array<float, kMost> weight, normalisation;  ///< share in the mixture; the same / V
+    std::array<int32_t, kMost> level;
+
+    void fill(const SignificanceCache::Lobes& cell, const Vec3& n, const DirectionWeight& at);
+    void scale(float factor);
+    float pdf(const Vec3& wi) const;
+    Vec3 axis(size_t i) const { return {x[i], y[i], z[i]}; }
   };
-  void add(const SignificanceCache::Lobes& cell, const Vec3& n, const DirectionWeight& scattering);
 
   const SignificanceCache& cache_;
-  std::array<Lobe, 2 * SignificanceCache::kMostNearest> lobes_;  ///< of both sides of a surface
-  size_t count_ = 0;
-  float total_ = 0;
+  Vec3 n_{0};
+  Side front_, back_;  ///< back_: of what is transmitted
 };
 
 }  // namespace lampyris

@@ -22,6 +22,9 @@ constexpr float kAlike = 0.8f;
 /// Bounds sample weights, so that no sum overflows: far beyond radiances that images hold.
 constexpr double kLargestWeight = 1e60;
 
+/// Lobes pay if they save this much of the second moment, once so many samples tell.
+constexpr double kWorthwhile = 1, kLeastGains = 100;
+
 constexpr size_t kMostRecords = 32;
 
 }  // namespace
@@ -29,12 +32,30 @@ constexpr size_t kMostRecords = 32;
 RecordCell::RecordCell(int room) : room_(room), nextFit_(kFirstFit) {}
 
 RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(parent) {
-  s_ *= share;
-  i_ *= share;
-  i2_ *= share;
-  for (SignificanceRecord& r : records_) r.fade(share);
+  fade(share);
   sinceFit_ = 0;
   nextFit_ = kFirstFit;
+}
+
+void RecordCell::fade(double factor) {
+  for (double* sum : {&s_, &i_, &i2_, &ownMoment_, &mixedMoment_, &gains_}) *sum *= factor;
+  for (SignificanceRecord& r : records_) r.fade(factor);
+}
+
+/// With g = BSDF × |cos| × light, the second moment under a density q is E[g² / (p q)].
+void RecordCell::countGain(const GuideSample& s, float guidePdf) {
+  const auto g = static_cast<double>(s.gain);
+  const auto own = static_cast<double>(s.ownPdf);
+  const double mixed = 0.5 * (own + static_cast<double>(guidePdf));
+  const double share = g / static_cast<double>(s.pdf) * g;
+  if (!(share > 0) || !(mixed > 0)) return;
+  gains_ += 1;
+  ownMoment_ += std::min(share / own, kLargestWeight);
+  mixedMoment_ += std::min(share / mixed, kLargestWeight);
+}
+
+bool RecordCell::pays() const {
+  return gains_ < kLeastGains || mixedMoment_ < kWorthwhile * ownMoment_;
 }
 
 bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
@@ -47,24 +68,26 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
   i2_ += weight * weight;
   sinceFit_ += 1;
   bool inserted = false;
-  if (weight > 0) {
+  if (weight > 0 || sample.gain > 0) {
     std::array<float, kMostRecords> predicted;
-    float total = 0;
+    float total = 0, flux = 0;
     bool known = false;
     for (size_t i = 0; i < records_.size(); ++i) {
       const SignificanceRecord& r = records_[i];
       const float power = lobePower(r.level(), r.direction(), sample.wi);
       predicted[i] = r.radiance() * power;
       total += predicted[i];
+      flux += r.flux();
       known = known || power > kKnown;
     }
+    if (flux > 0) countGain(sample, sample.guidePdf < 0 ? total / flux : sample.guidePdf);
     const float sphere = sample.n == Vec3(0) ? 4 * kPi : 2 * kPi;
     const float mean = static_cast<float>(std::min(meanFlux(), 1e30)) / sphere;
     const float sum = total + kBackground * mean;
-    if (sum > 0)
+    if (weight > 0 && sum > 0)
       for (size_t i = 0; i < records_.size(); ++i)
         records_[i].add(sample.wi, weight * static_cast<double>(predicted[i] / sum));
-    if (mayInsert && significant && !known && sample.radiance > total &&
+    if (mayInsert && weight > 0 && significant && !known && sample.radiance > total &&
         records_.size() < static_cast<size_t>(room_)) {
       records_.emplace_back(sample.p, sample.wi, weight).fit(s_);
       inserted = true;
@@ -75,13 +98,8 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
 }
 
 void RecordCell::fit() {
-  for (SignificanceRecord& r : records_) {
-    r.fit(s_);
-    r.fade(kFading);
-  }
-  s_ *= kFading;
-  i_ *= kFading;
-  i2_ *= kFading;
+  for (SignificanceRecord& r : records_) r.fit(s_);
+  fade(kFading);
   sinceFit_ = 0;
   nextFit_ = std::max(kFirstFit, 2 * s_);
   mergeAlike();

@@ -33,8 +33,12 @@ class RecordCell {
   const Vec3& normal() const { return normal_; }
   /// Ĩ times 2π: mean weight of all samples, the flux of all directions.
   double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
+  /// False where the samples say that BSDFs alone would do better than with the lobes.
+  bool pays() const;
 
  private:
+  void countGain(const GuideSample& sample, float guidePdf);
+  void fade(double factor);
   void fit();
   void mergeAlike();
 
@@ -42,6 +46,9 @@ class RecordCell {
   std::vector<SignificanceRecord> records_;
   Vec3 normal_{0};
   double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares
+  /// Second moments of what samples give to the image: as they would be from BSDFs alone, and from
+  /// an even mixture with the lobes; and how many found light.
+  double ownMoment_ = 0, mixedMoment_ = 0, gains_ = 0;
   double sinceFit_ = 0, nextFit_;
 };
 

@@ -140,8 +140,9 @@ void SignificanceCache::freeze() {
       Node flat{static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal(), n.children};
       for (int32_t& child : flat.children)
         if (child != CellTree::kNoChild) child += first;
-      for (const SignificanceRecord& r : n.cell.records())
-        lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+      if (n.cell.pays())
+        for (const SignificanceRecord& r : n.cell.records())
+          lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
       flat.count = static_cast<uint32_t>(lobes_.size()) - flat.first;
       nodes_.push_back(flat);
     }

@@ -3,19 +3,38 @@
 
 namespace lampyris {
 
+DrawnDirection DirectionMixture::drawn(const Vec3& wi, const Rgb& scattered, float ownPdf) const {
+  DrawnDirection d;
+  d.wi = wi;
+  d.scattered = scattered;
+  d.ownPdf = ownPdf;
+  d.guidePdf = guidePdf(wi);
+  d.pdf = mixed(ownPdf, d.guidePdf);
+  return d;
+}
+
 std::optional<DrawnDirection> DirectionMixture::sampleOwn(float uc, const Vec2& u) const {
   if (!at_.bsdf()) {
     const Vec3 wi = at_.phase()->sample(at_.wo(), u);
     const float p = at_.phase()->p(at_.wo(), wi);
-    return DrawnDirection{wi, Rgb(p), mixed(p, wi), p};
+    return drawn(wi, Rgb(p), p);
   }
   const auto s = at_.bsdf()->sample(at_.wo(), uc, u);
   if (!s) return std::nullopt;
-  DrawnDirection d{s->wi, s->f * at_.bsdf()->absCosTheta(s->wi), 0, s->pdf, s->isSpecular()};
+  const Rgb scattered = s->f * at_.bsdf()->absCosTheta(s->wi);
+  DrawnDirection d;
+  if (s->isSpecular()) {
+    // No other technique finds a specular direction: only the choice of this one counts.
+    d.wi = s->wi;
+    d.scattered = scattered;
+    d.pdf = ownShare_ * s->pdf;
+    d.ownPdf = s->pdf;
+    d.isSpecular = true;
+  } else {
+    d = drawn(s->wi, scattered, s->pdf);
+  }
   d.isTransmission = s->isTransmission();
   if (d.isTransmission) d.etaScale = sqr(s->eta);
-  // No other technique finds a specular direction: only the choice of this one counts.
-  d.pdf = d.isSpecular ? ownShare_ * s->pdf : mixed(s->pdf, s->wi);
   return d;
 }
 
@@ -27,8 +46,7 @@ std::optional<DrawnDirection> DirectionMixture::sample(float uc, const Vec2& u,
   } else {
     const float part = std::min((uc - ownShare_) / (1 - ownShare_), kOneMinusEpsilon);
     const Vec3 wi = guide_->sample(part, u, more);
-    const float own = at_.pdf(wi);
-    d = DrawnDirection{wi, at_.scattered(wi), mixed(own, wi), own};
+    d = drawn(wi, at_.scattered(wi), at_.pdf(wi));
   }
   if (!d || !(d->pdf > 0) || !std::isfinite(d->pdf) || d->scattered.isBlack()) return std::nullopt;
   return d;

@@ -38,7 +38,8 @@ struct DrawnDirection {
   Vec3 wi{0};
   Rgb scattered;  ///< ScatteringPoint::scattered(), or what makes scattered / pdf the weight
   float pdf = 0;
-  float ownPdf = 0;  ///< of the point's own sampling; of a specular draw the share of its choice
+  float guidePdf = -1;  ///< of the guide; < 0: there is none
+  float ownPdf = 0;     ///< of the point's own sampling; of a specular draw the share of its choice
   bool isSpecular = false;
   bool isTransmission = false;  ///< by the BSDF's own sampling
   float etaScale = 1;           ///< (ηt/ηi)² if transmitted
@@ -52,14 +53,16 @@ class DirectionMixture {
       : at_(at), guide_(guide), ownShare_(guide ? ownShare : 1) {}
 
   /// Density by solid angle of draws that are not specular.
-  float pdf(const Vec3& wi) const { return mixed(at_.pdf(wi), wi); }
+  float pdf(const Vec3& wi) const { return mixed(at_.pdf(wi), guidePdf(wi)); }
   /// None where nothing is scattered.
   std::optional<DrawnDirection> sample(float uc, const Vec2& u, NumberSequence& more) const;
 
  private:
-  float mixed(float ownPdf, const Vec3& wi) const {
-    return guide_ ? ownShare_ * ownPdf + (1 - ownShare_) * guide_->pdf(wi) : ownPdf;
+  float mixed(float ownPdf, float guidePdf) const {
+    return guide_ ? ownShare_ * ownPdf + (1 - ownShare_) * guidePdf : ownPdf;
   }
+  float guidePdf(const Vec3& wi) const { return guide_ ? guide_->pdf(wi) : -1; }
+  DrawnDirection drawn(const Vec3& wi, const Rgb& scattered, float ownPdf) const;
   std::optional<DrawnDirection> sampleOwn(float uc, const Vec2& u) const;
 
   const ScatteringPoint& at_;

@@ -46,6 +46,7 @@ struct VolumePathEstimator::Path {
   Rgb unguided{1};
   float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
   int bounces = 0, interfaces = 0;
+  bool emissionAdded = false;  ///< of what the ray ends at
   bool distanceDrawn = false;  ///< since the last bounce, with the sampler's numbers
   /// Light sampling at the last vertex could have found what the ray finds; `from` and `pdf` say
   /// with which densities.
@@ -74,13 +75,14 @@ struct VolumePathEstimator::Path {
 };
 
 void GuidedMemory::finish(const Rgb& radiance) {
+  const auto positive = [](const Rgb& c) {  // 0/0 in channels that are lost
+    return Rgb(c.r > 0 ? c.r : 0.f, c.g > 0 ? c.g : 0.f, c.b > 0 ? c.b : 0.f);
+  };
   for (const Turn& t : turns) {
-    const Rgb found = (radiance - t.before) / t.throughput;  // 0/0 in channels that are lost
-    const Rgb clean(found.r > 0 ? found.r : 0.f, found.g > 0 ? found.g : 0.f,
-                    found.b > 0 ? found.b : 0.f);
     GuideSample s = t.sample;
-    s.radiance = clean.luminance();
-    if (std::isfinite(s.radiance)) samples.push_back(s);
+    s.radiance = positive((radiance - t.before) / t.throughput).luminance();
+    s.gain = positive((radiance - t.before + t.direct) / t.throughput * t.scattered).luminance();
+    if (std::isfinite(s.radiance) && std::isfinite(s.gain)) samples.push_back(s);
   }
   turns.clear();
 }
@@ -108,8 +110,11 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   while (true) {
     ++state.rays.closest;
     const auto hit = scene_.geometry->intersect(path.ray);
+    path.emissionAdded = path.medium != nullptr;
     if (path.medium) {
-      const Event event = throughMedium(path, hit ? hit->shape.t : kInfinity);
+      const float end = hit ? hit->shape.t : kInfinity;
+      addDimmedEmission(path, hit, end);
+      const Event event = throughMedium(path, end);
       if (event == Event::Ended) break;
       if (event == Event::Scattered) continue;
     }
@@ -117,12 +122,37 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
       if (!onSurface(path, *hit)) break;
       continue;
     }
-    addEmission(path, path.weighed ? lighting_.foundOutside(path.from, path.pdf, path.ray.d)
-                                   : lighting_.outside(path.ray.d));
+    if (!path.emissionAdded) addEmission(path, outside(path));
     break;
   }
   if (path.learns) path.memory->finish(path.radiance);
   return path.radiance;
+}
+
+/// Emission at the end of the path's ray, weighed where light sampling could have found it.
+Rgb VolumePathEstimator::emission(const Path& path, const SurfaceInteraction& at) const {
+  return path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
+                      : at.primitive->light->emitted(at, at.wo);
+}
+Rgb VolumePathEstimator::outside(const Path& path) const {
+  return path.weighed ? lighting_.foundOutside(path.from, path.pdf, path.ray.d)
+                      : lighting_.outside(path.ray.d);
+}
+
+/// Adds what of the light at the end of the path's ray gets through the medium, whether or not the
+/// path scatters before: to wait whether it does would make noise wherever a lamp is seen.
+void VolumePathEstimator::addDimmedEmission(Path& path, const std::optional<Hit>& hit,
+                                            float tMax) const {
+  Rgb found;
+  if (!hit) {
+    found = outside(path);
+  } else if (scene_.geometry->primitive(*hit).light) {
+    found = emission(path, scene_.geometry->surface(path.ray, *hit, SurfaceDetail::Basic));
+  }
+  if (found.isBlack()) return;
+  Ray segment = path.ray;
+  segment.tMax = tMax;
+  addEmission(path, found * path.medium->transmittance(segment, path.numbers));
 }
 
 /// Goes through the medium up to `tMax`, or scatters in it.
@@ -161,9 +191,7 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
   if (last && !primitive.light && primitive.material) return false;
   const Material* material = primitive.material;
   SurfaceInteraction at = surfaceAt(*scene_.geometry, path.ray, hit, path.differential);
-  if (primitive.light)
-    addEmission(path, path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
-                                   : primitive.light->emitted(at, at.wo));
+  if (primitive.light && !path.emissionAdded) addEmission(path, emission(path, at));
   if (!material) {
     if (++path.interfaces > kMaxInterfaces) return false;
     path.differential = nullptr;
@@ -223,7 +251,7 @@ void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
   const Rgb added = path.throughput * found;
   path.radiance += added;
   if (path.learns && path.weighed && !path.memory->turns.empty())
-    path.memory->turns.back().before += added;
+    path.memory->turns.back().before += added, path.memory->turns.back().direct += added;
 }
 
 /// Russian roulette with the probabilities of pbrt-v3.
@@ -244,20 +272,22 @@ bool VolumePathEstimator::survives(Path& path) const {
 bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
                                   const GuidePoint& where) const {
   const bool specular = point.bsdf() && point.bsdf()->isSpecular();
+  // What the last ray finds, light sampling finds as well: guides do not know it.
+  const bool lastRay = path.bounces + 1 >= settings_.maxDepth;
   const LocalGuide* guide = nullptr;
-  if (path.memory && guidance_.use && !specular && !path.entersBelow) {
+  if (path.memory && guidance_.use && !specular && !path.entersBelow && !lastRay) {
     ++path.memory->lookups;
     if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
   }
   const DirectionMixture mixture(point, guide, guidance_.ownShare);
   if (lighting_.hasLights() && !specular) path.radiance += lightAt(path, mixture, point);
   // Where rays find no light, the last one need not be traced.
-  if (path.bounces + 1 >= settings_.maxDepth && !path.entersBelow && !lighting_.hasVisibleLights())
-    return false;
+  if (lastRay && !path.entersBelow && !lighting_.hasVisibleLights()) return false;
 
   path.setDimension(kDirectionOffset);
   const Vec2 u = path.ownNumbers ? path.numbers.next2() : path.stream.next2D();
-  const float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
+  float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
+  if (path.memory && specular && path.bounces == 0) preferRare(path, uc);
   const auto d = mixture.sample(uc, u, path.numbers);
   if (!d) return false;
   path.throughput *= d->scattered / d->pdf;
@@ -270,7 +300,7 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   if (path.memory && !specular) {
     ++path.memory->drawn;
     path.memory->guided += guide != nullptr;
-    if (path.learns && !d->isSpecular && !path.below) remember(path, where, *d);
+    if (path.learns && !lastRay && !d->isSpecular && !path.below) remember(path, where, *d);
   }
   path.differential = nullptr;
   path.interfaces = 0;
@@ -282,6 +312,18 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   path.ray.tMax = kInfinity;
   ++path.bounces;
   return true;
+}
+
+/// What is seen in glass directly: its reflections are drawn rarely, and a lamp's makes noise that
+/// no guide can mend. So `uc`, which chooses between the directions of a specular surface, the
+/// reflected one first, is drawn from its lowest part more often.
+void VolumePathEstimator::preferRare(Path& path, float& uc) {
+  constexpr float kPart = 1 / 16.f, kPreferred = 0.25f;
+  constexpr float kDensityLow = 1 - kPreferred + kPreferred / kPart, kDensity = 1 - kPreferred;
+  constexpr float kLow = kPart * kDensityLow;
+  uc = uc < kLow ? uc / kDensityLow : kPart + (uc - kLow) / kDensity;
+  uc = std::min(uc, kOneMinusEpsilon);
+  path.throughput /= uc < kPart ? kDensityLow : kDensity;
 }
 
 /// The medium of a ray that leaves the last vertex.
@@ -309,7 +351,8 @@ void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
                                    const DrawnDirection& d) const {
   if (path.memory->turns.size() >= kMaxTurns) return;
   const Vec3 n = where.onSurface() ? faceForward(where.n, d.wi) : Vec3(0);
-  path.memory->turns.push_back({{where.p, n, d.wi, 0, d.pdf}, path.throughput, path.radiance});
+  GuideSample s{where.p, n, d.wi, 0, d.pdf, d.ownPdf, d.guidePdf};
+  path.memory->turns.push_back({s, path.throughput, path.radiance, d.scattered});
 }
 
 }  // namespace lampyris

@@ -17,7 +17,8 @@ class GuidedMemory final : public EstimatorMemory {
   /// A direction that a path took: its radiance is what the path finds from there on.
   struct Turn {
     GuideSample sample;
-    Rgb throughput, before;  ///< after the turn; radiance of the path until then
+    Rgb throughput, before;   ///< after the turn; radiance of the path until then
+    Rgb scattered, direct{};  ///< there; found right behind it of light that is sampled as well
   };
   /// Ends a path: turns its turns into samples.
   void finish(const Rgb& radiance);
@@ -48,6 +49,9 @@ class VolumePathEstimator final : public RadianceEstimator {
  private:
   struct Path;
   enum class Event : uint8_t { Ended, Scattered, Surface };
+  Rgb emission(const Path& path, const SurfaceInteraction& at) const;
+  Rgb outside(const Path& path) const;
+  void addDimmedEmission(Path& path, const std::optional<Hit>& hit, float tMax) const;
   Event throughMedium(Path& path, float tMax) const;
   bool onSurface(Path& path, const Hit& hit) const;
   void addEmission(Path& path, const Rgb& found) const;
@@ -57,6 +61,7 @@ class VolumePathEstimator final : public RadianceEstimator {
   bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
   Rgb lightAt(Path& path, const class DirectionMixture& mixture,
               const class ScatteringPoint& point) const;
+  static void preferRare(Path& path, float& uc);
   const Medium* mediumTowards(const Path& path, const Vec3& w) const;
   void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;
 
