@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/camera.h"
@@ -15,6 +16,15 @@
 
 namespace lampyris {
 
+/// What an integrator has learned while it renders: a checkpoint must hold it.
+class LearnedState {
+ public:
+  virtual std::string save() const = 0;
+
+ protected:
+  ~LearnedState() = default;
+};
+
 /// How far along a render is.
 struct RenderProgress {
   uint64_t samplesDone = 0;    ///< that every pixel has
@@ -23,6 +33,7 @@ struct RenderProgress {
   double fractionDone = 0;
   double seconds = 0;        ///< of rendering; time spent in onPass and onStop is left out
   uint64_t cameraPaths = 0;  ///< in all
+  const LearnedState* learned = nullptr;  ///< null: nothing is
 };
 
 /// A state of the image that is wanted on the way: at a number of samples a pixel, or at a time.
@@ -34,6 +45,7 @@ struct RenderStop {
 /// A render ends at whichever of its limits comes first.
 struct RenderOptions {
   uint64_t firstSample = 0;  ///< index to start at (after --resume)
+  std::string learned;       ///< LearnedState::save() at that sample
   /// A pixel, the resumed ones included; 0: the sampler's number, or without limit where a time or
   /// a noise is given.
   uint64_t sampleCount = 0;
@@ -67,7 +79,7 @@ class Integrator {
   /// Renders into the film. Returns the number of samples that every pixel has.
   virtual uint64_t render(RenderContext& context) const = 0;
   virtual bool rendersMedia() const { return false; }
-  /// False if a render cannot go on from a film alone: the integrator learns, or has chains.
+  /// False if a checkpoint holds too little for a render to go on from: the integrator has chains.
   virtual bool resumes() const { return true; }
   /// False if the light image is all there is. Then nothing is known of a pixel alone: no samples
   /// to replay, no noise, no AOVs.

@@ -66,6 +66,24 @@ void CellTree::endPass() {
   }
 }
 
+void CellTree::save(ByteWriter& out) const {
+  out.put(nodes_.size());
+  for (const Node& n : nodes_) {
+    n.cell.save(out);
+    out.put(n.divided);
+    out.put(n.children);
+  }
+}
+
+void CellTree::restore(ByteReader& in) {
+  nodes_.assign(in.getCount(sizeof(Children)), {RecordCell(0), false, {}});
+  for (Node& n : nodes_) {
+    n.cell.restore(in);
+    in.get(n.divided);
+    in.get(n.children);
+  }
+}
+
 size_t CellTree::recordCount() const {
   size_t count = 0;
   for (const Node& n : nodes_) count += n.cell.records().size();

@@ -32,6 +32,10 @@ class CellTree {
   size_t recordCount() const;
   size_t memory() const;
 
+  /// Of an equal tree, between passes.
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
+
   /// Which child `p` lies in, and that child's centre and size in place of the parent's.
   static int descend(const Vec3& p, Vec3& centre, float& size);
 

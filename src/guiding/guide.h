@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "base/medium.h"
 #include "core/statistics.h"
@@ -67,6 +69,10 @@ class Guide {
   virtual void learn(std::span<const GuideSample> samples) = 0;
   virtual void endPass() = 0;
   virtual void report(Statistics& statistics) const = 0;
+  /// What has been learned until the last endPass(), so that an equal guide goes on from it to the
+  /// same bits. False: the bytes are not of such a guide, which must not be used then.
+  virtual std::string save() const = 0;
+  virtual bool restore(std::string_view bytes) = 0;
 };
 
 }  // namespace lampyris

@@ -54,6 +54,22 @@ void RecordCell::countGain(const GuideSample& s, float guidePdf) {
   mixedMoment_ += std::min(share / mixed, kLargestWeight);
 }
 
+void RecordCell::save(ByteWriter& out) const {
+  out.put(room_);
+  out.put(normal_);
+  for (const double sum : {s_, i_, i2_, ownMoment_, mixedMoment_, gains_, sinceFit_, nextFit_})
+    out.put(sum);
+  out.put(records_);
+}
+
+void RecordCell::restore(ByteReader& in) {
+  in.get(room_);
+  in.get(normal_);
+  for (double* sum : {&s_, &i_, &i2_, &ownMoment_, &mixedMoment_, &gains_, &sinceFit_, &nextFit_})
+    in.get(*sum);
+  in.get(records_);
+}
+
 bool RecordCell::pays() const {
   return gains_ < kLeastGains || mixedMoment_ < kWorthwhile * ownMoment_;
 }

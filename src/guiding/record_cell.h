@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/bytes.h"
 #include "guiding/guide.h"
 #include "guiding/significance_record.h"
 
@@ -35,6 +36,9 @@ class RecordCell {
   double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
   /// False where the samples say that BSDFs alone would do better than with the lobes.
   bool pays() const;
+
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
 
  private:
   void countGain(const GuideSample& sample, float guidePdf);

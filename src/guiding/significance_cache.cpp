@@ -103,7 +103,7 @@ void SignificanceCache::learn(std::span<const GuideSample> samples) {
         continue;
       }
       trees_.emplace_back(root.centre, size_, settings_.nearest);
-      keys_.push_back(root.key);
+      roots_.push_back(root);
       waiting_.emplace_back();
     }
     waiting_[at->second].push_back(s);
@@ -133,9 +133,9 @@ void SignificanceCache::freeze() {
   const size_t mask = slots_.size() - 1;
   for (size_t t = 0; t < trees_.size(); ++t) {
     const auto first = static_cast<int32_t>(nodes_.size());
-    size_t slot = keys_[t] & mask;
+    size_t slot = roots_[t].key & mask;
     while (slots_[slot].root != 0) slot = (slot + 1) & mask;
-    slots_[slot] = {keys_[t], static_cast<uint32_t>(first) + 1};
+    slots_[slot] = {roots_[t].key, static_cast<uint32_t>(first) + 1};
     for (const CellTree::Node& n : trees_[t].nodes()) {
       Node flat{static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal(), n.children};
       for (int32_t& child : flat.children)
@@ -147,6 +147,29 @@ void SignificanceCache::freeze() {
       nodes_.push_back(flat);
     }
   }
+}
+
+std::string SignificanceCache::save() const {
+  ByteWriter out;
+  out.put(learned_);
+  out.put(roots_);
+  for (const CellTree& t : trees_) t.save(out);
+  return out.bytes();
+}
+
+bool SignificanceCache::restore(std::string_view bytes) {
+  ByteReader in(bytes);
+  in.get(learned_);
+  in.get(roots_);
+  trees_.clear();
+  treeAt_.clear();
+  for (const Root& r : roots_) {
+    treeAt_.emplace(r.key, static_cast<uint32_t>(trees_.size()));
+    trees_.emplace_back(r.centre, size_, settings_.nearest).restore(in);
+  }
+  waiting_.assign(trees_.size(), {});
+  freeze();
+  return in.ok() && in.atEnd();
 }
 
 size_t SignificanceCache::memory() const {

@@ -43,6 +43,8 @@ class SignificanceCache final : public Guide {
   void learn(std::span<const GuideSample> samples) override;
   void endPass() override;
   void report(Statistics& statistics) const override;
+  std::string save() const override;
+  bool restore(std::string_view bytes) override;
 
   /// The lobes around `p` for surfaces facing `n` (zero: in a medium); empty if nothing is known.
   Lobes find(const Vec3& p, const Vec3& n) const;
@@ -63,8 +65,8 @@ class SignificanceCache final : public Guide {
     uint32_t root = 0;  ///< index in nodes_ + 1; 0: empty
   };
   struct Root {
-    uint64_t key;
-    Vec3 centre;
+    uint64_t key = 0;
+    Vec3 centre{0};
   };
   Root rootOf(const Vec3& p, const Vec3& n) const;
   void freeze();
@@ -73,7 +75,7 @@ class SignificanceCache final : public Guide {
   Vec3 origin_;
   float size_;
   std::vector<CellTree> trees_;
-  std::vector<uint64_t> keys_;                     ///< of the trees
+  std::vector<Root> roots_;                        ///< of the trees
   std::unordered_map<uint64_t, uint32_t> treeAt_;  ///< by key
   std::vector<std::vector<GuideSample>> waiting_;  ///< per tree: learned from at the pass's end
 

@@ -23,6 +23,7 @@ namespace lampyris {
 /// eq. 7 and 8.
 class SignificanceRecord {
  public:
+  SignificanceRecord() = default;
   /// A lobe made for one sample of weight `w`.
   SignificanceRecord(const Vec3& position, const Vec3& direction, double w);
 
@@ -46,9 +47,9 @@ class SignificanceRecord {
   float radiance() const { return flux_ * inverseWholeLobe(level_); }
 
  private:
-  Vec3 position_, direction_;
-  float exponent_, flux_ = 0;
-  int level_;
+  Vec3 position_{0}, direction_{0, 0, 1};
+  float exponent_ = 1, flux_ = 0;
+  int level_ = 0;
   double sa_ = 0, sa2_ = 0;  ///< Sa; the sum of its terms' squares
   double m_[3] = {};         ///< sum of parts × directions; Sr = Sa − its length
 };

@@ -5,6 +5,7 @@
 // stands still meanwhile; passes double, and the image is their mean by sample counts.
 #include "integrators/guided_path.h"
 
+#include "core/bytes.h"
 #include "guiding/guides.h"
 #include "integrators/common_parameters.h"
 
@@ -41,10 +42,6 @@ class GuidedPathIntegrator final : public Integrator {
 
   uint64_t render(RenderContext& context) const override {
     const PathSettings& settings = parameters_.settings;
-    if (context.options.firstSample > 0)
-      throw SceneError(settings.location,
-                       "integrator \"guidedpath\" learns while it renders and cannot go on from a "
-                       "checkpoint");
     const PixelBounds pixels =
         renderedPixels(context.film, settings.pixelBounds, settings.location);
     const auto guide = makeGuide(parameters_.guide, context.scene);
@@ -54,12 +51,14 @@ class GuidedPathIntegrator final : public Integrator {
     const VolumePathEstimator estimator(context.scene, settings, distribution_.get(), guidance);
     if (!guide) return renderPasses(context, pixels, estimator);
     GuideTrainer trainer(*guide, guidance, pixels.area());
+    if (context.options.firstSample > 0 && !trainer.restore(context.options.learned))
+      throw SceneError(settings.location,
+                       "the checkpoint does not hold what this guide has learned");
     const uint64_t samples = renderPasses(context, pixels, estimator, &trainer);
     trainer.report(context.statistics);
     return samples;
   }
   bool rendersMedia() const override { return true; }
-  bool resumes() const override { return parameters_.guide.name == "none"; }
 
  private:
   const GuidedPathParameters parameters_;
@@ -115,6 +114,20 @@ void GuideTrainer::endPass() {
                                                          static_cast<double>(guidance_.stride)));
   samplesPerPath_ = samples / paths;
   seconds_ += secondsNow() - start;
+}
+
+std::string GuideTrainer::save() const {
+  ByteWriter out;
+  out.put(passes_);
+  out.put(samplesPerPath_);
+  return out.bytes() + guide_.save();
+}
+
+bool GuideTrainer::restore(std::string_view bytes) {
+  ByteReader in(bytes);
+  in.get(passes_);
+  in.get(samplesPerPath_);
+  return in.ok() && guide_.restore(bytes.substr(sizeof passes_ + sizeof samplesPerPath_));
 }
 
 void GuideTrainer::report(Statistics& statistics) const {

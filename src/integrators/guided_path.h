@@ -19,6 +19,9 @@ class GuideTrainer final : public PassObserver {
   void tileDone(size_t tile, RenderState& state) override;
   void endPass() override;
   void report(Statistics& statistics) const;
+  std::string save() const override;
+  /// False: the bytes are of no such state.
+  bool restore(std::string_view bytes);
 
  private:
   Guide& guide_;

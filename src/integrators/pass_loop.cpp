@@ -44,6 +44,7 @@ RenderProgress PassLoop::progress() const {
   p.samplesTarget = target_;
   p.seconds = seconds();
   p.cameraPaths = s.made;
+  p.learned = learned_;
   p.fractionDone = schedule_.fraction(p.meanSamples, p.seconds, noise_);
   return p;
 }

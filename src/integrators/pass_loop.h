@@ -18,13 +18,17 @@ class PassLoop {
   uint64_t run();
 
  protected:
-  /// `target` and `timely` as for PassSchedule. The clock starts now.
-  PassLoop(RenderContext& context, uint64_t target, bool timely)
+  /// `target` and `timely` as for PassSchedule. What is `learned` between passes, if anything, goes
+  /// into checkpoints. The clock starts now.
+  PassLoop(RenderContext& context, uint64_t target, bool timely,
+           const LearnedState* learned = nullptr)
       : context_(context),
         options_(context.options),
         target_(target),
         done_(options_.firstSample),
-        schedule_(options_, target, timely) {}
+        learned_(learned),
+        schedule_(options_, target, timely,
+                  learned ? static_cast<double>(options_.firstSample) : 0) {}
 
   struct Pass {
     uint64_t samples = 0;    ///< that all pixels got; 0: it was cut short
@@ -63,6 +67,7 @@ class PassLoop {
   RenderProgress progress() const;
   void passDone();
 
+  const LearnedState* const learned_;
   PassSchedule schedule_;
   const Clock::time_point start_ = Clock::now();
   double paused_ = 0;    ///< seconds for which the render's clock stood still

@@ -27,8 +27,9 @@ uint64_t countOf(double n) { return n > 1 ? static_cast<uint64_t>(std::min(n, 1e
 
 }  // namespace
 
-PassSchedule::PassSchedule(const RenderOptions& options, uint64_t target, bool timely)
-    : options_(options), target_(target), timely_(timely) {
+PassSchedule::PassSchedule(const RenderOptions& options, uint64_t target, bool timely,
+                           double rendered)
+    : options_(options), target_(target), timely_(timely), rendered_(rendered) {
   for (size_t i = 0; i < options.stops.size(); ++i) pending_.push_back(i);
   std::stable_sort(pending_.begin(), pending_.end(), [&](size_t a, size_t b) {
     const RenderStop &x = options.stops[a], &y = options.stops[b];

@@ -16,8 +16,9 @@ class PassSchedule {
  public:
   /// `target`: samples a pixel, 0: without limit. Copies nothing: `options` must live as long.
   /// `timely` false: passes are not kept short, so that without a limit of time their sizes do not
-  /// depend on time.
-  PassSchedule(const RenderOptions& options, uint64_t target, bool timely = true);
+  /// depend on time. `rendered`: samples a pixel of an earlier run that count for what doubles.
+  PassSchedule(const RenderOptions& options, uint64_t target, bool timely = true,
+               double rendered = 0);
 
   struct Pass {
     uint64_t samples = 1;
@@ -45,7 +46,7 @@ class PassSchedule {
   const uint64_t target_;
   const bool timely_;
   std::vector<size_t> pending_;  ///< stops not met yet
-  double rendered_ = 0;
+  double rendered_;
   double secondsPerSample_ = 0;
 };
 

@@ -28,7 +28,7 @@ class PassRenderer final : public PassLoop {
  public:
   PassRenderer(RenderContext& context, const PixelBounds& pixels,
                const RadianceEstimator& estimator, PassObserver* observer)
-      : PassLoop(context, targetOf(context), observer == nullptr),
+      : PassLoop(context, targetOf(context), observer == nullptr, observer),
         pixels_(pixels),
         estimator_(estimator),
         observer_(observer),

@@ -68,7 +68,7 @@ class RadianceEstimator {
 /// Learns between passes. With an observer, tiles and the sizes of passes depend neither on the
 /// number of threads nor, but for a limit of time, on time: passes are of 1, 1, 2, 4, 8 … samples a
 /// pixel.
-class PassObserver {
+class PassObserver : public LearnedState {
  public:
   struct Pass {
     uint64_t samples = 0;  ///< a pixel

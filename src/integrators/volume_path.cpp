@@ -134,6 +134,7 @@ Rgb VolumePathEstimator::emission(const Path& path, const SurfaceInteraction& at
   return path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
                       : at.primitive->light->emitted(at, at.wo);
 }
+
 Rgb VolumePathEstimator::outside(const Path& path) const {
   return path.weighed ? lighting_.foundOutside(path.from, path.pdf, path.ray.d)
                       : lighting_.outside(path.ray.d);
@@ -152,7 +153,8 @@ void VolumePathEstimator::addDimmedEmission(Path& path, const std::optional<Hit>
   if (found.isBlack()) return;
   Ray segment = path.ray;
   segment.tMax = tMax;
-  addEmission(path, found * path.medium->transmittance(segment, path.numbers));
+  addEmission(path,
+              found * path.medium->transmittance(segment, path.numbers, path.state.rays.tracking));
 }
 
 /// Goes through the medium up to `tMax`, or scatters in it.

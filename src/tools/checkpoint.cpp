@@ -14,10 +14,10 @@ namespace lampyris {
 
 namespace {
 
-constexpr std::string_view kMagic = "lampyris checkpoint 1\n";
+constexpr std::string_view kMagic = "lampyris checkpoint 2\n";
 
 struct Header {
-  uint64_t fingerprint, nextSample, filmSize, filmHash;
+  uint64_t fingerprint, nextSample, filmSize, filmHash, learnedSize, learnedHash;
 };
 
 uint64_t hashOf(std::string_view bytes) {
@@ -42,11 +42,13 @@ void Fingerprint::add(std::string_view bytes) {
 }
 
 void writeCheckpoint(const std::string& path, const Checkpoint& c) {
-  const Header header{c.fingerprint, c.nextSample, c.film.size(), hashOf(c.film)};
+  const Header header{c.fingerprint,  c.nextSample,     c.film.size(),
+                      hashOf(c.film), c.learned.size(), hashOf(c.learned)};
   AtomicFile file(path);
   file.write(kMagic.data(), kMagic.size());
   file.write(&header, sizeof header);
   file.write(c.film.data(), c.film.size());
+  file.write(c.learned.data(), c.learned.size());
   file.commit();
 }
 
@@ -59,9 +61,12 @@ Checkpoint readCheckpoint(const std::string& path) {
   text.remove_prefix(kMagic.size());
   std::memcpy(&header, text.data(), sizeof header);
   text.remove_prefix(sizeof header);
-  if (text.size() != header.filmSize || hashOf(text) != header.filmHash)
+  const std::string_view film = text.substr(0, header.filmSize);
+  const std::string_view learned = text.substr(film.size());
+  if (film.size() != header.filmSize || learned.size() != header.learnedSize ||
+      hashOf(film) != header.filmHash || hashOf(learned) != header.learnedHash)
     throw IoError(fmt::format("checkpoint \"{}\" is damaged", path));
-  return {header.fingerprint, header.nextSample, std::string(text)};
+  return {header.fingerprint, header.nextSample, std::string(film), std::string(learned)};
 }
 
 }  // namespace lampyris

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Checkpoints: a film's sums in a file, from which a later run goes on to the same bits.
+/// Checkpoints: a film's sums, and what has been learned, in a file, from which a later run goes on
+/// to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Checkpoint {
   uint64_t fingerprint = 0;
   uint64_t nextSample = 0;  ///< samples that all pixels have
   std::string film;         ///< Film::save()
+  std::string learned;      ///< LearnedState::save(); empty: nothing was learned
 };
 
 /// Written beside `path` first, then renamed, so that a crash leaves the old or the new file.

@@ -51,7 +51,7 @@ class RenderSession {
   void renderImage(const Outputs& outputs);
   void renderPixel();
   void passDone(const RenderProgress& progress);
-  void saveCheckpoint(uint64_t nextSample);
+  void saveCheckpoint(uint64_t nextSample, const LearnedState* learned);
   void attempt(const std::function<void()>& save);
   uint64_t render(Film& film, const RenderOptions& options);
   ImageMetadata metadata(double samples) const;
@@ -68,6 +68,7 @@ class RenderSession {
   std::optional<InterruptGuard> interrupt_;  ///< once the scene is loaded
   RunReport report_;
   uint64_t firstSample_ = 0;
+  std::string learned_;  ///< until then
   uint64_t fingerprint_ = 0;
   double lastCheckpoint_ = 0;
 };
@@ -114,11 +115,13 @@ void RenderSession::resume() {
   if (!job_->film->restore(c.film))
     throw IoError(fmt::format("checkpoint \"{}\" is of another film", settings_.resume));
   firstSample_ = c.nextSample;
+  learned_ = c.learned;
 }
 
 RenderOptions RenderSession::renderOptions() {
   RenderOptions o;
   o.firstSample = firstSample_;
+  o.learned = learned_;
   o.sampleCount = static_cast<uint64_t>(settings_.build.samplesPerPixel);
   o.seconds = settings_.seconds;
   o.noise = settings_.noise;
@@ -134,9 +137,10 @@ ImageMetadata RenderSession::metadata(double samples) const {
           {"seed", std::to_string(settings_.build.seed)}};
 }
 
-void RenderSession::saveCheckpoint(uint64_t nextSample) {
+void RenderSession::saveCheckpoint(uint64_t nextSample, const LearnedState* learned) {
   if (settings_.checkpoint.empty()) return;
-  writeCheckpoint(settings_.checkpoint, {fingerprint_, nextSample, job_->film->save()});
+  writeCheckpoint(settings_.checkpoint, {fingerprint_, nextSample, job_->film->save(),
+                                         learned ? learned->save() : std::string()});
 }
 
 /// What cannot be written while the render goes on is left for the next time.
@@ -180,13 +184,17 @@ void RenderSession::renderImage(const Outputs& initial) {
   Outputs outputs = initial;
   ProgressLine line(settings_.quiet);
   RenderOptions options = renderOptions();
+  bool learns = false;
   options.onProgress = [&](const RenderProgress& p) { line.update(p); };
   options.onPass = [&](const RenderProgress& p) {
     if (line.wantsNoise(p.seconds)) line.setNoise(job_->film->noise(), p.seconds);
     line.update(p);
-    if (p.seconds - lastCheckpoint_ >= settings_.checkpointInterval) {
+    // Who learns does so between passes, which are few and long: part of one cannot be gone on
+    // from.
+    learns = p.learned != nullptr;
+    if (learns || p.seconds - lastCheckpoint_ >= settings_.checkpointInterval) {
       lastCheckpoint_ = p.seconds;
-      attempt([&] { saveCheckpoint(p.samplesDone); });
+      attempt([&] { saveCheckpoint(p.samplesDone, p.learned); });
     }
     attempt([&] { outputs.writePartial(*job_->film, metadata(p.meanSamples), p.seconds); });
   };
@@ -198,7 +206,7 @@ void RenderSession::renderImage(const Outputs& initial) {
   warnOfMissedSnapshots();
   // The image first: it can be had without the checkpoint, but not the other way round.
   outputs.write(*job_->film, metadata(statistics_.value("render", "samples per pixel")));
-  saveCheckpoint(samples);
+  if (!learns) saveCheckpoint(samples, nullptr);
   report_.noise = job_->film->noise();
 }
 

@@ -138,13 +138,32 @@ TEST(GuidedPath, SceneOfOnePointAndEmptyScenes) {
   }
 }
 
-TEST(GuidedPath, DoesNotResume) {
-  TinyScene scene(tinyScene(view(R"("guidedpath")", 4), kRoom));
-  EXPECT_FALSE(scene.job().integrator->resumes());
+TEST(GuidedPath, GoesOnFromWhatItHasLearned) {
+  const std::string text = tinyScene(view(R"("guidedpath")", 24), kMist + kRoom);
+  TinyScene whole(text), resumed(text);
   RenderOptions options;
-  options.firstSample = 4;
-  options.sampleCount = 8;
-  EXPECT_THROW(scene.render(options), SceneError);
+  options.sampleCount = 23;
+  std::string film;
+  RenderOptions rest = options;
+  options.onPass = [&](const RenderProgress& p) {
+    ASSERT_NE(p.learned, nullptr);
+    if (p.samplesDone != 8) return;
+    film = whole.film().save();
+    rest.firstSample = p.samplesDone;
+    rest.learned = p.learned->save();
+  };
+  whole.render(options);
+  ASSERT_EQ(rest.firstSample, 8u);
+  ASSERT_TRUE(resumed.film().restore(film));
+  resumed.render(rest);
+  EXPECT_TRUE(whole.film().save() == resumed.film().save());
+
+  // With nothing learned, or part of it, it would go another way.
+  for (const size_t kept : {size_t{0}, size_t{5}, rest.learned.size() - 1}) {
+    RenderOptions broken = rest;
+    broken.learned.resize(kept);
+    EXPECT_THROW(TinyScene(text).render(broken), SceneError);
+  }
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(Fingerprint, EveryByteAndEveryBoundaryCounts) {
 TEST(Checkpoint, SurvivesTheFile) {
   const std::string path =
       (std::filesystem::temp_directory_path() / "lampyris-checkpoint-test").string();
-  writeCheckpoint(path, {7, 12, std::string("film\0bytes", 10)});
+  writeCheckpoint(path, {7, 12, std::string("film\0bytes", 10), "what was learned"});
   const Checkpoint c = readCheckpoint(path);
   EXPECT_EQ(c.fingerprint, 7u);
   EXPECT_EQ(c.nextSample, 12u);

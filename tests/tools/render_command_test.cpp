@@ -161,12 +161,13 @@ TEST_F(Render, ResumeGivesTheSameBits) {
 }
 
 /// Starts a render of very many samples, waits for its checkpoint and sends a signal.
-int interruptRender(const std::filesystem::path& folder, int signal) {
+int interruptRender(const std::filesystem::path& folder, int signal,
+                    const char* integrator = "integrator=path") {
   const pid_t child = fork();
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(99);
     execl(LAMPYRIS_BINARY, "lampyris", "--quiet", "--spp", "1000000000", "--checkpoint", "c",
-          "--checkpoint-interval", "0", "-o", "part.pfm", "tiny.pbrt", nullptr);
+          "--checkpoint-interval", "0", "-D", integrator, "-o", "part.pfm", "tiny.pbrt", nullptr);
     _exit(99);
   }
   for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "c"); ++i)
@@ -178,21 +179,25 @@ int interruptRender(const std::filesystem::path& folder, int signal) {
 }
 
 TEST_F(Render, KilledRendersResumeToTheSameBits) {
-  const int status = interruptRender(path(""), SIGKILL);
-  ASSERT_TRUE(WIFSIGNALED(status));
-  ASSERT_TRUE(exists("c"));
-  // A target below what the checkpoint holds renders nothing, but tells how much that is.
-  EXPECT_EQ(run("--spp 1 --resume c --checkpoint c2 --stats s.json -o at.pfm tiny.pbrt").code, 0);
-  const std::string stats = read("s.json");
-  const std::string key = "\"samples per pixel\": ";
-  const size_t at = stats.find(key);
-  ASSERT_NE(at, std::string::npos) << stats;
-  const int samples = std::atoi(stats.c_str() + at + key.size());
-  ASSERT_GE(samples, 1);
-  const std::string target = std::to_string(samples + 3);
-  EXPECT_EQ(run("--spp " + target + " --resume c -o resumed.pfm tiny.pbrt").code, 0);
-  EXPECT_EQ(run("--spp " + target + " -o whole.pfm tiny.pbrt").code, 0);
-  EXPECT_EQ(read("whole.pfm"), read("resumed.pfm"));
+  for (const std::string integrator : {"integrator=path", "integrator=guidedpath"}) {
+    std::filesystem::remove(path("c"));
+    const int status = interruptRender(path(""), SIGKILL, integrator.c_str());
+    const std::string scene = "-D " + integrator + " tiny.pbrt";
+    ASSERT_TRUE(WIFSIGNALED(status));
+    ASSERT_TRUE(exists("c"));
+    // A target below what the checkpoint holds renders nothing, but tells how much that is.
+    EXPECT_EQ(run("--spp 1 --resume c --checkpoint c2 --stats s.json -o at.pfm " + scene).code, 0);
+    const std::string stats = read("s.json");
+    const std::string key = "\"samples per pixel\": ";
+    const size_t at = stats.find(key);
+    ASSERT_NE(at, std::string::npos) << stats;
+    const int samples = std::atoi(stats.c_str() + at + key.size());
+    ASSERT_GE(samples, 1);
+    const std::string target = std::to_string(samples + 3);
+    EXPECT_EQ(run("--spp " + target + " --resume c -o resumed.pfm " + scene).code, 0);
+    EXPECT_EQ(run("--spp " + target + " -o whole.pfm " + scene).code, 0);
+    EXPECT_EQ(read("whole.pfm"), read("resumed.pfm"));
+  }
 }
 
 TEST_F(Render, InterruptedRendersWriteWhatThereIs) {
