@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -209,21 +207,24 @@ TEST_F(Render, InterruptedRendersWriteWhatThereIs) {
 }
 
 TEST_F(Render, WhileASceneIsLoadedTheFirstSignalEndsAll) {
-  ASSERT_EQ(mkfifo(path("endless.pbrt").c_str(), 0600), 0);
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
   const pid_t child = fork();
   if (child == 0) {
-    if (chdir(path("").c_str()) != 0) _exit(99);
-    execl(LAMPYRIS_BINARY, "lampyris", "--quiet", "endless.pbrt", nullptr);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[1]);
+    execl(LAMPYRIS_BINARY, "lampyris", "--quiet", "-", nullptr);
     _exit(99);
   }
-  // Returns once the program reads.
-  const int writer = open(path("endless.pbrt").c_str(), O_WRONLY);
-  ASSERT_GE(writer, 0);
+  close(ends[0]);
+  // More than a pipe holds: returns once the program reads.
+  const std::string comments(1 << 18, '#');
+  ASSERT_EQ(::write(ends[1], comments.data(), comments.size()), ssize_t{1} << 18);
   kill(child, SIGTERM);
   int status = 0;
   for (int i = 0; i < 2000 && waitpid(child, &status, WNOHANG) == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  close(writer);
+  close(ends[1]);
   EXPECT_TRUE(WIFSIGNALED(status)) << status;
   if (!WIFSIGNALED(status)) kill(child, SIGKILL);
 }
