@@ -108,6 +108,18 @@ class DisneyClearcoat final : public Lobe {
   float albedo(const Vec3& wo) const override {
     return scale.luminance() * 0.25f * lerp(schlickWeight(std::abs(wo.z)), 0.04f, 1);
   }
+  /// Its core and its tail: two Trowbridge-Reitz lobes of half the albedo, whose median tilts are
+  /// the quartiles of these facets'. Up to a tilt θ there are 1 − ln(α² + (1 − α²) sin²θ) / ln α²
+  /// of these, tan²θ / (α² + tan²θ) of those.
+  size_t shapes(const Vec3& wo, std::span<LobeShape, kMaxShapes> out) const override {
+    const float root = std::sqrt(std::sqrt(alpha2_));  // α^½
+    for (size_t i = 0; i < 2; ++i) {
+      const float e = i == 0 ? root * root * root : root;
+      const float alpha = std::sqrt((e - alpha2_) / (1 - e));
+      out[i] = {LobeShape::Kind::Facets, false, 0.5f * albedo(wo), alpha};
+    }
+    return 2;
+  }
 
  private:
   /// By solid angle of m, times cos θ a density over the hemisphere.

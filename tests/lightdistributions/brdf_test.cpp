@@ -5,6 +5,7 @@
 
 #include "core/sampling.h"
 #include "light_scenes.h"
+#include "materials/disney_lobes.h"
 #include "materials/lambert.h"
 #include "materials/microfacet_reflection.h"
 #include "support/statistics.h"
@@ -64,6 +65,18 @@ TEST(Brdf, FindsTheLightsInTheLobe) {
     const double mine = variance(*scene, *brdf, c);
     EXPECT_LT(mine, 0.1 * variance(*scene, *bvh, c)) << alpha;
     EXPECT_LT(mine, 2) << alpha;
+  }
+}
+
+TEST(Brdf, FindsTheLightsInAClearcoat) {
+  const auto scene = manyLights(4000);
+  DistributionMaker maker;
+  const auto brdf = maker.make("brdf", *scene), bvh = maker.make("bvh", *scene);
+  for (const float gloss : {0.f, 0.5f, 1.f}) {
+    FloorPoint at(Vec3(-1, 0.2f, 1.2f));
+    at.bsdf.add<DisneyClearcoat>(1.f, gloss);
+    const LightSampleContext& c = at.finish();
+    EXPECT_LT(variance(*scene, *brdf, c), 0.25 * variance(*scene, *bvh, c)) << gloss;
   }
 }
 
