@@ -2,6 +2,7 @@
 #include "integrators/adaptive_direct.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace lampyris {
 
@@ -20,6 +21,29 @@ LightSampleContext seenByTree(const LightSampleContext& at, int samples) {
   tree.worth /= static_cast<float>(std::max(1, samples));
   return tree;
 }
+
+enum Technique : size_t { kTree, kBrdfOriented, kBsdf };
+
+/// Tells how long techniques take, at one point in 64: reading the clock has its price too.
+class TechniqueClock {
+ public:
+  explicit TechniqueClock(DirectCounts& counts) : counts_(counts), runs_(counts.points % 64 == 0) {
+    if (runs_) last_ = Clock::now();
+  }
+  /// The time since the last lap was the technique's.
+  void lap(Technique technique) {
+    if (!runs_) return;
+    const auto now = Clock::now();
+    counts_.seconds[technique] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  DirectCounts& counts_;
+  bool runs_;
+  Clock::time_point last_;
+};
 
 }  // namespace
 
@@ -151,6 +175,8 @@ float AdaptiveDirect::lightProbability(const Point& point, int i) const {
 AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, float time,
                                                Purpose purpose, SampleStream& stream,
                                                RenderState& state, Allocation& allocation) const {
+  DirectCounts& counts = state.direct;
+  TechniqueClock clock(counts);
   Point point(at, time, stream, state);
   point.cut = purpose != Purpose::ContinuedByOne;
   // One sample is all that less could be worth.
@@ -158,9 +184,9 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
   point.samples = sampleCount(point, purpose, stream.next1D());
   point.tree = seenByTree(at, point.samples);
   allocation = {point.samples, point.cut};
+  clock.lap(kBrdfOriented);
 
   if (state.aov) state.aov->beginLightVertex();
-  DirectCounts& counts = state.direct;
   ++counts.points;
   if (point.brdf) ++counts.glossyPoints, counts.cutClusters += point.brdf->cutSize();
   Parts sum;
@@ -172,12 +198,16 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
     counts.bsdfSamples += continuation && point.brdf;
     if (continuation) break;
     stream.setDimension(point.firstDimension + 2 + 4 * static_cast<uint32_t>(i));
-    if (stream.next1D() < p)
+    if (stream.next1D() < p) {
       sum.lights += brdfLightSample(point, i);
-    else
+      clock.lap(kBrdfOriented);
+    } else {
       sum.bsdf += bsdfSample(point, i);
+      clock.lap(kBsdf);
+    }
   }
   sum.lights += treeSamples(point);
+  clock.lap(kTree);
   return sum;
 }
 
@@ -245,6 +275,7 @@ Rgb AdaptiveDirect::treeSamples(Point& point) const {
   thread_local SampledLights drawn;
   drawn.clear();
   tree.sampleCut(point.tree, choice, drawn);
+  prefetchLights(scene_, drawn);
   Rgb sum;
   Vec2 u = stream.next2D();
   for (const SampledLight& light : drawn) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <numeric>
+
 #include "integrators/render_loop.h"
 
 namespace lampyris {
@@ -11,6 +13,7 @@ DirectCounts& DirectCounts::operator+=(const DirectCounts& o) {
   lightSamples += o.lightSamples;
   bsdfSamples += o.bsdfSamples;
   bsdfHits += o.bsdfHits;
+  for (size_t i = 0; i < seconds.size(); ++i) seconds[i] += o.seconds[i];
   return *this;
 }
 
@@ -27,6 +30,11 @@ void DirectCounts::report(Statistics& statistics) const {
   put("BRDF-aware samples a glossy point", lightSamples + bsdfSamples, glossyPoints);
   put("share of BSDF samples", bsdfSamples, lightSamples + bsdfSamples);
   put("share of BSDF samples that find light", bsdfHits, bsdfSamples);
+  const double total = std::accumulate(seconds.begin(), seconds.end(), 0.);
+  if (!(total > 0)) return;
+  statistics.set("direct lighting", "share of time, light tree", seconds[0] / total);
+  statistics.set("direct lighting", "share of time, BRDF-oriented", seconds[1] / total);
+  statistics.set("direct lighting", "share of time, BSDF", seconds[2] / total);
 }
 
 }  // namespace lampyris

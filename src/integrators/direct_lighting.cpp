@@ -67,6 +67,7 @@ const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float
   thread_local SampledLights cut;
   cut.clear();
   distribution_->sampleCut(at, choice, cut);
+  prefetchLights(scene_, cut);
   return cut;
 }
 

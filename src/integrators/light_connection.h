@@ -32,6 +32,11 @@ inline Vec2 nextInCut(Vec2 u) {
   return u - glm::floor(u);
 }
 
+/// Fetches the lights of a cut side by side; they are used one after the other.
+inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
+  for (const SampledLight& l : cut) __builtin_prefetch(scene.lightTable[l.light].light);
+}
+
 /// None where nothing arrives or nothing is scattered. at.bsdf must be set; `u` chooses the point
 /// of the light; `time` is that of the shadow ray.
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,

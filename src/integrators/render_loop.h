@@ -2,6 +2,7 @@
 /// The loop over passes, tiles, pixels and samples that all path-like integrators share.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct DirectCounts {
   uint64_t lightSamples = 0;  ///< BRDF-oriented, at glossy points
   uint64_t bsdfSamples = 0;   ///< at glossy points
   uint64_t bsdfHits = 0;      ///< of these, how many found light
+  /// Of some points, by technique: the tree's cut, BRDF-oriented lights, BSDF samples.
+  std::array<double, 3> seconds{};
 
   DirectCounts& operator+=(const DirectCounts& o);
   void report(Statistics& statistics) const;

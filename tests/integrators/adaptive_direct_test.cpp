@@ -167,6 +167,13 @@ TEST(AdaptiveDirect, ReportsItsShares) {
   EXPECT_GT(value("share of BSDF samples"), 0);
   EXPECT_LT(value("share of BSDF samples"), 1);
   EXPECT_LT(value("share of BSDF samples that find light"), 1);
+  double time = 0;
+  for (const char* technique : {"light tree", "BRDF-oriented", "BSDF"}) {
+    const double share = value((std::string("share of time, ") + technique).c_str());
+    EXPECT_GT(share, 0) << technique;
+    time += share;
+  }
+  EXPECT_NEAR(time, 1, 1e-9);
 }
 
 TEST(AdaptiveDirect, DiffusePointsTakeOneBsdfSample) {
