@@ -24,10 +24,10 @@ LightSampleContext seenByTree(const LightSampleContext& at, int samples) {
 
 enum Technique : size_t { kTree, kBrdfOriented, kBsdf };
 
-/// Tells how long techniques take, at one point in 64: reading the clock has its price too.
+/// Tells how long techniques take, at one point in 16: reading the clock has its price too.
 class TechniqueClock {
  public:
-  explicit TechniqueClock(DirectCounts& counts) : counts_(counts), runs_(counts.points % 64 == 0) {
+  explicit TechniqueClock(DirectCounts& counts) : counts_(counts), runs_(counts.points % 16 == 0) {
     if (runs_) last_ = Clock::now();
   }
   /// The time since the last lap was the technique's.
@@ -181,7 +181,7 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
   point.cut = purpose != Purpose::ContinuedByOne;
   // One sample is all that less could be worth.
   point.look(lights_, 1 / static_cast<float>(maxSamples_));
-  point.samples = sampleCount(point, purpose, stream.next1D());
+  point.samples = sampleCount(point, purpose, point.brdf ? stream.next1D() : 0);
   point.tree = seenByTree(at, point.samples);
   allocation = {point.samples, point.cut};
   clock.lap(kBrdfOriented);
@@ -197,8 +197,11 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
     point.drawsLights = point.drawsLights || p > 0;
     counts.bsdfSamples += continuation && point.brdf;
     if (continuation) break;
-    stream.setDimension(point.firstDimension + 2 + 4 * static_cast<uint32_t>(i));
-    if (stream.next1D() < p) {
+    const uint32_t first = point.firstDimension + 2 + 4 * static_cast<uint32_t>(i);
+    stream.setDimension(first);
+    const bool ofLights = p > 0 && stream.next1D() < p;
+    stream.setDimension(first + 1);
+    if (ofLights) {
       sum.lights += brdfLightSample(point, i);
       clock.lap(kBrdfOriented);
     } else {
