@@ -64,6 +64,8 @@ class Guide {
  public:
   virtual ~Guide() = default;
   virtual std::unique_ptr<LocalGuide> makeLocal() const = 0;
+  /// False: samples are not wanted, and the guide is ready before the first pass.
+  virtual bool learns() const { return true; }
   /// Takes the samples of a part of a pass, in an order that is the same for any number of
   /// threads; then, once a pass, endPass().
   virtual void learn(std::span<const GuideSample> samples) = 0;

@@ -9,18 +9,27 @@ namespace {
 
 struct Entry {
   const char* name;
-  std::unique_ptr<Guide> (*make)(const GuideSettings&, const Scene&);
+  std::unique_ptr<Guide> (*make)(const GuideSettings&, const Scene&, const PhotonSource&);
 };
 
-std::unique_ptr<Guide> makeNone(const GuideSettings&, const Scene&) { return nullptr; }
+std::unique_ptr<Guide> makeNone(const GuideSettings&, const Scene&, const PhotonSource&) {
+  return nullptr;
+}
 
-std::unique_ptr<Guide> makeSignificance(const GuideSettings& s, const Scene& scene) {
+std::unique_ptr<Guide> makeSignificance(const GuideSettings& s, const Scene& scene,
+                                        const PhotonSource&) {
   return std::make_unique<SignificanceCache>(s.significance, scene.bounds);
+}
+
+std::unique_ptr<Guide> makePhotons(const GuideSettings& s, const Scene&,
+                                   const PhotonSource& photons) {
+  return std::make_unique<PhotonGuide>(s.photons, photons(s.photons.photons));
 }
 
 // One line a guide.
 constexpr Entry kGuides[] = {
     {"significance", makeSignificance},
+    {"photons", makePhotons},
     {"none", makeNone},
 };
 
@@ -31,12 +40,14 @@ void GuideSettings::declare(Declaration& d) {
   for (const Entry& e : kGuides) names.emplace_back(e.name);
   d.add("guide", name, "What guides the paths.").oneOf(names);
   significance.declare(d);
+  photons.declare(d);
 }
 
-std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene) {
+std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene,
+                                 const PhotonSource& photons) {
   const auto* e = std::find_if(std::begin(kGuides), std::end(kGuides),
                                [&](const Entry& entry) { return settings.name == entry.name; });
-  return e->make(settings, scene);
+  return e->make(settings, scene, photons);
 }
 
 }  // namespace lampyris

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/scene.h"
-#include "guiding/guide.h"
+#include "guiding/photon_guide.h"
 #include "guiding/significance_cache.h"
 
 namespace lampyris {
@@ -14,10 +14,13 @@ namespace lampyris {
 struct GuideSettings {
   std::string name = "significance";
   SignificanceSettings significance;
+  PhotonGuideSettings photons;
   void declare(Declaration& d);
 };
 
-/// Null for "none". `settings.name` must be one of those declared.
-std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene);
+/// Null for "none". `settings.name` must be one of those declared; `photons` is asked by guides
+/// that want some.
+std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene,
+                                 const PhotonSource& photons);
 
 }  // namespace lampyris

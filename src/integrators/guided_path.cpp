@@ -8,6 +8,7 @@
 #include "core/bytes.h"
 #include "guiding/guides.h"
 #include "integrators/common_parameters.h"
+#include "integrators/guide_photons.h"
 
 namespace lampyris {
 
@@ -44,7 +45,9 @@ class GuidedPathIntegrator final : public Integrator {
     const PathSettings& settings = parameters_.settings;
     const PixelBounds pixels =
         renderedPixels(context.film, settings.pixelBounds, settings.location);
-    const auto guide = makeGuide(parameters_.guide, context.scene);
+    const auto guide = makeGuide(parameters_.guide, context.scene, [&](int count) {
+      return traceGuidePhotons(context.scene, count, settings.maxDepth);
+    });
     Guidance guidance;
     guidance.guide = guide.get();
     guidance.ownShare = parameters_.ownShare;
@@ -82,8 +85,8 @@ double secondsNow() {
 void GuideTrainer::beginPass(const Pass& pass) {
   pass_ = pass;
   tiles_.resize(pass.tiles);
-  guidance_.use = passes_ > 0;
-  guidance_.collect = !pass.isLast;
+  guidance_.use = passes_ > 0 || !guide_.learns();
+  guidance_.collect = !pass.isLast && guide_.learns();
   const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
   const double expected = static_cast<double>(pass.samples) * pixels_ * perPath;
   guidance_.stride =

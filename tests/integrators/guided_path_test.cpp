@@ -65,6 +65,9 @@ TEST(GuidedPath, HasTheMeanOfVolpath) {
   }
   expectSameMean(R"("guidedpath" "integer maxdepth" 6 "integer ncache" 1 "float radius" 0.5)",
                  volpath, kRoom, 64);
+  expectSameMean(
+      R"("guidedpath" "integer maxdepth" 6 "string guide" "photons" "integer photons" 3000)",
+      volpath, kRoom, 32);
 }
 
 TEST(GuidedPath, WithoutAGuideItIsVolpath) {
