@@ -33,6 +33,9 @@ std::string resolveLink(const std::string& path) {
 AtomicFile::AtomicFile(const std::string& path) : path_(resolveLink(path)) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) failOpen(path_, EISDIR);
+  // The rename would put a file in the place of a device or a pipe.
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
+    throw IoError(fmt::format("cannot write \"{}\": not a regular file", path_));
   // A rename asks for rights to the folder only; a file that is protected itself must stay.
   if (::access(path_.c_str(), F_OK) == 0 && ::access(path_.c_str(), W_OK) != 0)
     failOpen(path_, errno);

@@ -13,6 +13,8 @@ namespace lampyris {
 namespace {
 
 constexpr size_t kDeepestInclude = 64, kDeepestBlock = 10'000;
+/// A few files that include each other twice at each level would have no end.
+constexpr size_t kMostIncludes = 100'000;
 
 std::string_view beginName(OpenBlock::Kind kind) {
   switch (kind) {
@@ -159,6 +161,8 @@ void WorldParser::include() {
       fail(e.what());
     }
   }
+  if (++includes_ > kMostIncludes)
+    fail(fmt::format("files are included more than {} times", kMostIncludes));
   openFiles_.push_back(path);
   parseFile(known->second);
   openFiles_.pop_back();

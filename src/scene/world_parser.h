@@ -106,6 +106,7 @@ class WorldParser {
   const Directive* directive_ = nullptr;
   std::vector<std::string> openFiles_;
   std::map<std::string, uint16_t, std::less<>> knownFiles_;
+  size_t includes_ = 0;
   bool worldBegun_ = false, worldEnded_ = false;
 
   GraphicsState state_;

@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
-#include <iterator>
 
+#include "core/atomic_file.h"
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "tools/checkpoint.h"
 #include "tools/commands.h"
@@ -26,6 +27,19 @@ namespace {
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// All of it; throws IoError where that is more than memory can be meant for.
+std::string readStandardInput() {
+  const double most = availableMemory() / 8;
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  while (const size_t n = std::fread(piece.data(), 1, piece.size(), stdin)) {
+    text.append(piece.data(), n);
+    if (static_cast<double>(text.size()) > most)
+      throw IoError(fmt::format("standard input has no end: {} bytes and more", text.size()));
+  }
+  return text;
 }
 
 /// One scene file from its text to its images.
@@ -80,9 +94,7 @@ std::unique_ptr<RenderJob> RenderSession::load(const BuildOptions& options) {
 }
 
 void RenderSession::loadJob() {
-  if (scene_ == "-")
-    standardInput_.assign(std::istreambuf_iterator<char>(std::cin),
-                          std::istreambuf_iterator<char>());
+  if (scene_ == "-") standardInput_ = readStandardInput();
   job_ = load(settings_.build);
   if (!settings_.quick) return;
   // The film's size is known only once the scene has been read.
@@ -254,7 +266,10 @@ int RenderSession::run() {
         diagnostics_.warn({},
                           "layers are asked for, but only EXR files can hold them: "
                           "add --out FILE.exr");
-      if (!settings_.checkpoint.empty()) fingerprint_ = fingerprint();
+      if (!settings_.checkpoint.empty()) {
+        const AtomicFile probe(settings_.checkpoint);  // fails now, not hours later
+        fingerprint_ = fingerprint();
+      }
       if (!settings_.resume.empty()) resume();
       renderImage(outputs);
       if (!settings_.quiet) say("{}: {}\n", scene_, fmt::join(outputs.paths(), ", "));
