@@ -30,15 +30,38 @@ struct Shares {
   Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable);
 };
 
+/// The children that are worth a light but can't give more than one: what their shares are beyond
+/// that goes to the others.
+struct Singles {
+  unsigned set = 0;
+  double scale;  ///< the share of every other child is this times its weight
+
+  Singles(const ChildWeights& weights, uint32_t total, uint8_t splittable) {
+    double budget = total, weight = weights.total();
+    // Every one that is found raises the others' shares.
+    for (bool more = true; more;) {
+      more = false;
+      for (size_t i = 0; i < kWidth; ++i) {
+        const auto w = static_cast<double>(weights.of[i]);
+        if ((set | splittable) >> i & 1 || !(w > 0) || w * budget < weight) continue;
+        set |= 1u << i;
+        budget -= 1, weight -= w;
+        more = true;
+      }
+    }
+    scale = weight > 0 ? budget / weight : 0;
+  }
+};
+
 Shares::Shares(const ChildWeights& weights, uint32_t total, uint8_t splittable) {
-  const double scale = static_cast<double>(total) / weights.total();
+  const Singles singles(weights, total, splittable);
   uint32_t left = total;
   double restWeight = 0;
   uint32_t rest = 0;
   unsigned strong = 0;
   for (size_t i = 0; i < kWidth; ++i) {
     const auto w = static_cast<double>(weights.of[i]);
-    const double share = w * scale;
+    const double share = singles.set >> i & 1 ? 1 : w * singles.scale;
     if (!(share >= 1) || left == 0) {
       restWeight += w;
       rest += w > 0;

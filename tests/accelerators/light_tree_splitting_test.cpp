@@ -148,6 +148,18 @@ TEST(LightTreeSplitting, StrongLightsAreNotLeftToChance) {
 
 // The thesis's program: one random number for all lights of a cut, so all of them are near their
 // clusters' first lights, or all near the last ones.
+// A single light can't use more than one of the budget, however strong it is.
+TEST(LightTreeSplitting, StrongLightLeavesTheBudgetToOthers) {
+  Lights lights = makeLights(Kind::Points, 300);
+  lights[0].bounds.box = Bounds3(Vec3(20, 0, 0));
+  lights[0].bounds.intensity = 1e4f;
+  const WideLightBVH tree{LightBVHAccel(lights)};
+  const LightSampleContext c = volumeAt({10, 0, 0});
+  const SampledLights cut = cutOf(tree, c, 0.3, LightSplitting(0, 16));
+  EXPECT_LE(cut.size(), 16u);
+  EXPECT_GE(cut.size(), 10u);
+}
+
 TEST(LightTreeSplitting, NumbersOfACutAreStratified) {
   // Eight rods around the point, all alike: whether the light is from the lower half of its rod.
   std::vector<Vec3> positions;
