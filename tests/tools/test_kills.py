@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Kills renders and checks that nothing is lost.
 
@@ -69,6 +70,8 @@ def kill_and_resume(render, kills, seconds, rng):
                 error = process.communicate()[1]
                 kills -= 1
             else:
+                if not (render.folder / "killed.pfm").exists():
+                    sys.exit("a render came to its end without an image")
                 image = (render.folder / "killed.pfm").read_bytes()
             if error:
                 sys.exit(f"a run before its kill: {error.decode()}")
@@ -83,7 +86,7 @@ def main():
     arguments = parser.parse_args()
     rng = random.Random(arguments.seed)
     with tempfile.TemporaryDirectory() as name:
-        render = Render(arguments.binary, pathlib.Path(name), samples=64)
+        render = Render(os.path.abspath(arguments.binary), pathlib.Path(name), samples=64)
         start = time.monotonic()
         whole = render.finish("whole.pfm")
         seconds = time.monotonic() - start
