@@ -72,9 +72,10 @@ struct Geometry {
 /// The angle θb that the bounding spheres subtend; within one lights may lie in any direction.
 struct Uncertainty {
   Float8 cosine, sine;
-  Uncertainty(const Geometry& g, const Float8& invLength)
-      : sine(stdx::min(sqrt(g.r2) * invLength, Float8(1))) {
-    cosine = sqrt(1 - sine * sine);
+  Uncertainty(const Geometry& g, const Float8& invLength2) {
+    const Float8 sine2 = stdx::min(g.r2 * invLength2, Float8(1));
+    sine = sqrt(sine2);
+    cosine = sqrt(1 - sine2);
     where(g.d2 <= g.r2, cosine) = 0;
   }
 };
@@ -133,8 +134,10 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
 // unasked.
 [[gnu::flatten]] ChildWeights importances(const WideLightBVHNode& node, const LightReceiver& at) {
   const Geometry g(node, at.position());
-  const Float8 invLength = 1 / sqrt(stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2))));
-  const Uncertainty uncertainty(g, invLength);
+  // Roots and quotients take most of the time: side by side rather than one after the other.
+  const Float8 invLength2 = 1 / stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2)));
+  const Float8 invLength = sqrt(invLength2);
+  const Uncertainty uncertainty(g, invLength2);
   Float8 factor = 1;
   if (at.hasSurface()) factor = receiverFactor(at, g, invLength, uncertainty);
   if (node.allNormals != 0xff) factor *= emissionFactor(node, g, invLength, uncertainty);
@@ -151,7 +154,7 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
   for (size_t i = 0; i < bits.size(); ++i) bits[i] = static_cast<uint32_t>(node.intensity[i]) << 16;
   const Float8 intensity(std::bit_cast<WideLightBVHNode::Lanes<float>>(bits).data(),
                          stdx::element_aligned);
-  Float8 weights = intensity * factor / sqrt(meanDistance4(g, out.unit2));
+  Float8 weights = (intensity / sqrt(meanDistance4(g, out.unit2))) * factor;
   where(!(weights > 0), weights) = 0;  // not a number: the point isn't one either
   weights.copy_to(out.of.data(), stdx::vector_aligned);
 
