@@ -70,6 +70,8 @@ class Guide {
   /// threads; then, once a pass, endPass().
   virtual void learn(std::span<const GuideSample> samples) = 0;
   virtual void endPass() = 0;
+  /// False once it is clear that guiding helps next to nowhere.
+  virtual bool pays() const { return true; }
   virtual void report(Statistics& statistics) const = 0;
   /// What has been learned until the last endPass(), so that an equal guide goes on from it to the
   /// same bits. False: the bytes are not of such a guide, which must not be used then.

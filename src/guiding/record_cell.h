@@ -34,7 +34,7 @@ class RecordCell {
   const Vec3& normal() const { return normal_; }
   /// Ĩ times 2π: mean weight of all samples, the flux of all directions.
   double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
-  /// False where the samples say that BSDFs alone would do better than with the lobes.
+  /// False where enough samples say that BSDFs alone would do better than with the lobes.
   bool pays() const;
 
   void save(ByteWriter& out) const;

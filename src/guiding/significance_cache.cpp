@@ -172,6 +172,18 @@ bool SignificanceCache::restore(std::string_view bytes) {
   return in.ok() && in.atEnd();
 }
 
+bool SignificanceCache::pays() const {
+  constexpr double kWorthwhile = 0.02;
+  double all = 0, helped = 0;  // samples; where too little is known, lobes may help yet
+  for (const CellTree& t : trees_)
+    for (const CellTree::Node& n : t.nodes()) {
+      if (n.divided) continue;
+      all += n.cell.samples();
+      if (n.cell.pays()) helped += n.cell.samples();
+    }
+  return !(helped < kWorthwhile * all);
+}
+
 size_t SignificanceCache::memory() const {
   size_t bytes = slots_.capacity() * sizeof(Slot) + nodes_.capacity() * sizeof(Node) +
                  lobes_.capacity() * sizeof(Lobe) + treeAt_.size() * 32;

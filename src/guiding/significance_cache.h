@@ -42,6 +42,7 @@ class SignificanceCache final : public Guide {
   std::unique_ptr<LocalGuide> makeLocal() const override;
   void learn(std::span<const GuideSample> samples) override;
   void endPass() override;
+  bool pays() const override;
   void report(Statistics& statistics) const override;
   std::string save() const override;
   bool restore(std::string_view bytes) override;

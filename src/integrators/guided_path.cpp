@@ -16,6 +16,8 @@ namespace {
 
 /// Samples that a pass may leave to be learned from: bounds memory and time.
 constexpr double kSamplesPerPass = 1 << 20;
+/// 16 samples a pixel: a guide is not judged by less.
+constexpr int kPassesBeforeRetiring = 5;
 /// Until a first pass has shown how many a path leaves.
 constexpr double kFirstGuess = 8;
 
@@ -85,8 +87,8 @@ double secondsNow() {
 void GuideTrainer::beginPass(const Pass& pass) {
   pass_ = pass;
   tiles_.resize(pass.tiles);
-  guidance_.use = passes_ > 0 || !guide_.learns();
-  guidance_.collect = !pass.isLast && guide_.learns();
+  guidance_.use = !retired_ && (passes_ > 0 || !guide_.learns());
+  guidance_.collect = !retired_ && !pass.isLast && guide_.learns();
   const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
   const double expected = static_cast<double>(pass.samples) * pixels_ * perPath;
   guidance_.stride =
@@ -113,6 +115,7 @@ void GuideTrainer::endPass() {
     tile = {};
   }
   guide_.endPass();
+  retired_ = retired_ || (passes_ >= kPassesBeforeRetiring && !guide_.pays());
   const double paths = pixels_ * std::max(1., std::floor(static_cast<double>(pass_.samples) /
                                                          static_cast<double>(guidance_.stride)));
   samplesPerPath_ = samples / paths;
@@ -123,6 +126,7 @@ std::string GuideTrainer::save() const {
   ByteWriter out;
   out.put(passes_);
   out.put(samplesPerPath_);
+  out.put(retired_);
   return out.bytes() + guide_.save();
 }
 
@@ -130,12 +134,15 @@ bool GuideTrainer::restore(std::string_view bytes) {
   ByteReader in(bytes);
   in.get(passes_);
   in.get(samplesPerPath_);
-  return in.ok() && guide_.restore(bytes.substr(sizeof passes_ + sizeof samplesPerPath_));
+  in.get(retired_);
+  constexpr size_t kOwn = sizeof passes_ + sizeof samplesPerPath_ + sizeof retired_;
+  return in.ok() && guide_.restore(bytes.substr(kOwn));
 }
 
 void GuideTrainer::report(Statistics& statistics) const {
   guide_.report(statistics);
   statistics.set("guide", "passes", passes_);
+  statistics.set("guide", "retired", retired_ ? 1 : 0);
   statistics.set("guide", "look-ups", static_cast<double>(lookups_));
   statistics.set("guide", "share of directions with a guide",
                  drawn_ > 0 ? static_cast<double>(guided_) / static_cast<double>(drawn_) : 0);

@@ -31,6 +31,7 @@ class GuideTrainer final : public PassObserver {
   std::vector<std::vector<GuideSample>> tiles_;
   double samplesPerPath_ = 0;  ///< learned from, of a path that is learned from
   int passes_ = 0;
+  bool retired_ = false;  ///< the guide does not pay: neither used nor taught any more
   double seconds_ = 0;
 
   std::mutex mutex_;  ///< guards the counts

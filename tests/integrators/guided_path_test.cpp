@@ -107,6 +107,24 @@ TEST(GuidedPath, GuidesWhereLightIsHardToFind) {
   EXPECT_LT(variance(R"("guidedpath")"), 0.9 * variance(R"("volpath")"));
 }
 
+TEST(GuidedPath, RetiresWhereItDoesNotPay) {
+  // Open and diffuse: light sampling and the BSDF find nearly all that there is to find.
+  const std::string open =
+      "LightSource \"infinite\" \"rgb L\" [.3 .35 .4]\nAttributeBegin\nAreaLightSource \"diffuse\" "
+      "\"rgb L\" [20 20 20]\nTranslate 2 -2 5\nReverseOrientation\nShape \"disk\" \"float radius\" "
+      "0.7\nAttributeEnd\n" +
+      matte(0.5f) + square(20) +
+      "AttributeBegin\nTranslate -1 0 0.7\nShape \"sphere\" \"float radius\" 0.7\nAttributeEnd\n";
+  TinyView above = view(R"("guidedpath" "integer maxdepth" 5)", 40);
+  above.lookAt = "0 -6 3  0 0 0.5  0 0 1";
+  TinyScene bright(tinyScene(above, open));
+  bright.render(128);
+  EXPECT_EQ(bright.statistics().value("guide", "retired"), 1);
+  TinyScene room(tinyScene(view(R"("guidedpath")"), kRoom));
+  room.render(64);
+  EXPECT_EQ(room.statistics().value("guide", "retired"), 0);
+}
+
 TEST(GuidedPath, MemoryIsBounded) {
   TinyScene scene(tinyScene(view(R"("guidedpath" "integer maxrecords" 50)"), kRoom));
   scene.render(32);
