@@ -8,6 +8,7 @@
 #include "integrators/aov_surface.h"
 #include "integrators/common_parameters.h"
 #include "integrators/direct_lighting.h"
+#include "integrators/ray_surface.h"
 #include "integrators/subsurface.h"
 
 namespace lampyris {
@@ -21,8 +22,6 @@ constexpr uint32_t kRouletteOffset = 6;
 /// Beyond those of any vertex: where the numbers of adaptive direct lighting begin.
 constexpr uint32_t kAdaptiveDimension = kFirstPathDimension + (uint32_t{1} << 24);
 constexpr int kFirstRouletteBounce = 4;
-/// A ray may pass this many interfaces in a row: two that coincide must not hold it forever.
-constexpr int kMaxInterfaces = 1000;
 
 class PathEstimator final : public RadianceEstimator {
  public:
@@ -97,11 +96,7 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     const bool last = path.bounces >= maxDepth_;
     if (last && !primitive.light) break;
     const Material* material = primitive.material;
-    const bool footprint = path.differential && material && material->wantsDifferentials();
-    SurfaceInteraction at = geometry_.surface(path.ray, *hit,
-                                              footprint  ? SurfaceDetail::Full
-                                              : material ? material->detail()
-                                                         : SurfaceDetail::Basic);
+    SurfaceInteraction at = surfaceAt(geometry_, path.ray, *hit, path.differential);
     if (primitive.light && !path.blind) addFound(path, state, emission(path, at));
     if (last) break;
     if (!material) {
@@ -112,7 +107,6 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
       continue;
     }
     if (!survives(path, stream)) break;
-    if (footprint) at.computeDifferentials(*path.differential);
     if (!scatter(path, at, *material, stream, state)) break;
   }
   return path.radiance;
