@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accelerators/embree_callbacks.h"
 
-#include "base/geometry.h"
-
 namespace lampyris::embree {
 
 namespace {
 
 enum class Query : uint8_t { Nearest, Occlusion };
 
-const Primitive& primitiveOf(const void* user) { return *static_cast<const Primitive*>(user); }
+const UserShapes& shapesOf(const void* user) { return *static_cast<const UserShapes*>(user); }
 
 Ray toRay(const RTCRay& r) {
   return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, r.time};
@@ -59,7 +57,7 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
   // With one ray the layouts of RTCRayN and RTCHitN are those of RTCRay and RTCHit.
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-  const Primitive& primitive = primitiveOf(args->geometryUserPtr);
+  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
   SurfaceInteraction at;
   evaluateSurface(primitive, hit.primID, {ray.tfar, {hit.u, hit.v}}, toRay(ray), at);
   if (passes(primitive, at, query)) args->valid[0] = 0;
@@ -68,7 +66,9 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
 }  // namespace
 
 void bounds(const RTCBoundsFunctionArguments* args) {
-  const Bounds3 b = primitiveOf(args->geometryUserPtr).shape->bounds(args->primID);
+  const UserShapes& shapes = shapesOf(args->geometryUserPtr);
+  const UserShapes::Element e = shapes.elements[args->primID];
+  const Bounds3 b = shapes.primitives[e.primitive].shape->bounds(e.element);
   // Embree's box test is in single precision, the shapes' intersections are not.
   const Vec3 pad = 4 * kMachineEpsilon * glm::max(glm::abs(b.min), glm::abs(b.max));
   RTCBounds& out = *args->bounds_o;
@@ -80,21 +80,24 @@ void bounds(const RTCBoundsFunctionArguments* args) {
 void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto hit =
-      firstHit(primitiveOf(args->geometryUserPtr), args->primID, query.ray, Query::Nearest);
+  const UserShapes& shapes = shapesOf(args->geometryUserPtr);
+  const UserShapes::Element e = shapes.elements[args->primID];
+  const auto hit = firstHit(shapes.primitives[e.primitive], e.element, query.ray, Query::Nearest);
   if (!hit) return;
   query.ray.tfar = hit->t;
   query.hit.u = hit->uv.x;
   query.hit.v = hit->uv.y;
-  query.hit.primID = args->primID;
-  query.hit.geomID = args->geomID;
+  query.hit.primID = e.element;
+  query.hit.geomID = e.primitive;
   query.hit.instID[0] = args->context->instID[0];
 }
 
 void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (firstHit(primitiveOf(args->geometryUserPtr), args->primID, ray, Query::Occlusion))
+  const UserShapes& shapes = shapesOf(args->geometryUserPtr);
+  const UserShapes::Element e = shapes.elements[args->primID];
+  if (firstHit(shapes.primitives[e.primitive], e.element, ray, Query::Occlusion))
     ray.tfar = -kInfinity;
 }
 

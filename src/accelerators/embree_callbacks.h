@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What Embree calls back while it traces a ray. User data of a geometry: its Primitive. Rays come
-/// one at a time (rtcIntersect1, rtcOccluded1).
+/// What Embree calls back while it traces a ray. User data of a geometry: its Primitive, or a
+/// UserShapes. Rays come one at a time (rtcIntersect1, rtcOccluded1).
 #pragma once
 
 #include <embree3/rtcore.h>
 
+#include <vector>
+
+#include "base/geometry.h"
+
 namespace lampyris::embree {
 
+/// The elements of all shapes of a scene that Embree doesn't know, as one geometry: a ray that
+/// comes by touches less memory than with one for each shape. Hits name the primitive in place of
+/// the geometry.
+struct UserShapes {
+  struct Element {
+    uint32_t primitive, element;
+  };
+  const std::vector<Primitive>& primitives;
+  std::vector<Element> elements{};
+};
+
+/// Of a UserShapes.
 void bounds(const RTCBoundsFunctionArguments* args);
 void intersect(const RTCIntersectFunctionNArguments* args);
 void occluded(const RTCOccludedFunctionNArguments* args);

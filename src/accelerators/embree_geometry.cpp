@@ -104,38 +104,54 @@ void setTriangles(RTCGeometry geometry, const TriangleBuffers& t) {
                              3 * sizeof(uint32_t), t.triangleCount);
 }
 
-/// Adds a primitive as geometry `id`; the primitive must stay where it is.
-void attach(RTCScene scene, const Primitive& primitive, unsigned id) {
-  const TriangleBuffers triangles = primitive.shape->triangles();
-  const bool mesh = triangles.triangleCount > 0;
-  const uint32_t elements = primitive.shape->elementCount();
-  if (elements == 0) return;
-  if (!mesh && elements == 1 && primitive.shape->bounds(0).empty()) return;
-  GeometryHandle geometry = newGeometry(mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
-  // Embree hands the pointer back as const data.
-  rtcSetGeometryUserData(geometry.get(), const_cast<Primitive*>(&primitive));
-  if (mesh) {
-    setTriangles(geometry.get(), triangles);
-    // Filters cost on every candidate, so only where there is something to filter.
-    if (primitive.alpha)
-      rtcSetGeometryIntersectFilterFunction(geometry.get(), embree::filterNearest);
-    if (primitive.alpha || primitive.shadowAlpha)
-      rtcSetGeometryOccludedFilterFunction(geometry.get(), embree::filterOccluded);
-  } else {
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), elements);
-    rtcSetGeometryBoundsFunction(geometry.get(), embree::bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry.get(), embree::intersect);
-    rtcSetGeometryOccludedFunction(geometry.get(), embree::occluded);
-  }
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene, geometry.get(), id);
+void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
   Device::instance().check();
 }
 
-SceneHandle buildScene(const std::vector<Primitive>& primitives) {
+/// The primitive must stay where it is.
+GeometryHandle meshGeometry(const Primitive& primitive, const TriangleBuffers& triangles) {
+  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree hands the pointer back as const data.
+  rtcSetGeometryUserData(geometry.get(), const_cast<Primitive*>(&primitive));
+  setTriangles(geometry.get(), triangles);
+  // Filters cost on every candidate, so only where there is something to filter.
+  if (primitive.alpha) rtcSetGeometryIntersectFilterFunction(geometry.get(), embree::filterNearest);
+  if (primitive.alpha || primitive.shadowAlpha)
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), embree::filterOccluded);
+  return geometry;
+}
+
+/// The shapes must stay where they are.
+GeometryHandle userGeometry(const embree::UserShapes& shapes) {
+  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserData(geometry.get(), const_cast<embree::UserShapes*>(&shapes));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(shapes.elements.size()));
+  rtcSetGeometryBoundsFunction(geometry.get(), embree::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry.get(), embree::intersect);
+  rtcSetGeometryOccludedFunction(geometry.get(), embree::occluded);
+  return geometry;
+}
+
+/// Meshes take the numbers of their primitives, all other shapes together `userId`.
+SceneHandle buildScene(const std::vector<Primitive>& primitives, size_t userId,
+                       std::deque<embree::UserShapes>& userShapes) {
   SceneHandle scene = newScene();
-  for (size_t i = 0; i < primitives.size(); ++i)
-    attach(scene.get(), primitives[i], static_cast<unsigned>(i));
+  embree::UserShapes others{primitives};
+  for (uint32_t i = 0; i < primitives.size(); ++i) {
+    const Shape& shape = *primitives[i].shape;
+    const TriangleBuffers triangles = shape.triangles();
+    if (triangles.triangleCount > 0) {
+      attach(scene.get(), meshGeometry(primitives[i], triangles).get(), i);
+      continue;
+    }
+    for (uint32_t element = 0; element < shape.elementCount(); ++element)
+      if (!shape.bounds(element).empty()) others.elements.push_back({i, element});
+  }
+  if (others.elements.empty()) return scene;
+  userShapes.push_back(std::move(others));
+  attach(scene.get(), userGeometry(userShapes.back()).get(), static_cast<unsigned>(userId));
   return scene;
 }
 
@@ -179,8 +195,9 @@ class EmbreeGeometry final : public Geometry {
   GeometryHandle movingInstance(const ObjectInstance& instance, RTCScene object, unsigned id);
 
   const GeometryDescription description_;
+  std::deque<embree::UserShapes> userShapes_;  ///< Embree points to them
+  std::deque<embree::MovingInstance> moving_;  ///< and to these
   std::vector<SceneHandle> objects_;
-  std::deque<embree::MovingInstance> moving_;  ///< Embree points to them
   SceneHandle scene_;
   Bounds3 bounds_;
   float rayLimit_ =
@@ -188,7 +205,10 @@ class EmbreeGeometry final : public Geometry {
 };
 
 EmbreeGeometry::EmbreeGeometry(GeometryDescription description)
-    : description_(std::move(description)), scene_(buildScene(description_.primitives)) {
+    : description_(std::move(description)),
+      scene_(buildScene(description_.primitives,
+                        description_.primitives.size() + description_.instances.size(),
+                        userShapes_)) {
   attachInstances();
   commit(scene_.get());
   RTCBounds b;
@@ -197,8 +217,8 @@ EmbreeGeometry::EmbreeGeometry(GeometryDescription description)
     bounds_ = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
 }
 
-/// Instances take the geometry numbers after the primitives. Definitions without an instance are
-/// not built; a singular map leaves nothing that a ray could meet.
+/// Instances take the geometry numbers after those of the primitives. Definitions without an
+/// instance are not built; a singular map leaves nothing that a ray could meet.
 void EmbreeGeometry::attachInstances() {
   objects_.resize(description_.objects.size());
   for (size_t i = 0; i < description_.instances.size(); ++i) {
@@ -211,16 +231,14 @@ void EmbreeGeometry::attachInstances() {
     if (primitives.empty()) continue;
     SceneHandle& object = objects_[instance.object];
     if (!object) {
-      object = buildScene(primitives);
+      object = buildScene(primitives, primitives.size(), userShapes_);
       commit(object.get());
     }
     const auto id = static_cast<unsigned>(description_.primitives.size() + i);
     const GeometryHandle geometry = instance.motion.empty()
                                         ? stillInstance(instance, object.get())
                                         : movingInstance(instance, object.get(), id);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
-    Device::instance().check();
+    attach(scene_.get(), geometry.get(), id);
   }
 }
 
