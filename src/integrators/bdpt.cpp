@@ -100,6 +100,7 @@ class BdptIntegrator final : public Integrator {
       context.film.openLightImage(estimator.typicalSample(context, pixels));
     return renderPasses(context, pixels, estimator);
   }
+  bool rendersMedia() const override { return true; }
 
  private:
   const BdptParameters parameters_;

@@ -10,13 +10,15 @@
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/light_connection.h"
-#include "integrators/ray_surface.h"
+#include "integrators/sample_numbers.h"
+#include "integrators/transmittance.h"
 
 namespace lampyris {
 
 namespace {
 
-LightSampleContext contextOf(const PathVertex& v) { return {v.at, v.bsdf}; }
+/// For NumberSequence; the camera's vertex draws nothing.
+constexpr uint32_t kSeedDimension = kFirstPathDimension + 1;
 
 /// The place of a vertex as what a shadow ray is led to.
 LightSample targetAt(const PathVertex& v, const Vec3& wi) {
@@ -31,9 +33,7 @@ LightSample targetAt(const PathVertex& v, const Vec3& wi) {
 
 /// Light that `v`, of a light's walk, scatters towards `w`, but for what distance does.
 Rgb scatteredFromLight(const PathVertex& v, const Vec3& w) {
-  const Vec3& in = v.at.wo;
-  const float cosines = safeDivide(v.bsdf.absCosTheta(in) * absDot(w, v.at.n), absDot(in, v.at.n));
-  return v.throughput * v.bsdf.f(w, in) * cosines;
+  return v.throughput * v.f(w, v.at.wo) * v.importanceCosine(v.at.wo, w);
 }
 
 }  // namespace
@@ -41,7 +41,12 @@ Rgb scatteredFromLight(const PathVertex& v, const Vec3& w) {
 struct BidirectionalPaths::Paths {
   Subpath camera, light;
   WholePath whole;
-  float time = 0;
+  Ray ray;                    ///< of the camera
+  NumberSequence numbers{0};  ///< for media
+
+  float time() const { return ray.time; }
+  /// Null if there are no media.
+  NumberSequence* numbersOf(const Scene& scene) { return scene.media.empty() ? nullptr : &numbers; }
 
   /// Puts together the vertex `start` (the light), vertices 1 … s − 1 of the light's walk and t of
   /// the camera's.
@@ -63,7 +68,7 @@ class BidirectionalPaths::Found final : public EmissionSink {
   void found(const PathVertex& light, const Rgb& radiance) override {
     if (vertices_ > 0 && paths_.camera.size() != vertices_) return;
     const WholePath& whole = paths_.join(light, 0, paths_.camera.size());
-    sum += radiance * static_cast<float>(estimator_.densities_.weight(whole, paths_.time));
+    sum += radiance * static_cast<float>(estimator_.densities_.weight(whole, paths_.time()));
   }
   Rgb sum;
 
@@ -90,21 +95,34 @@ BidirectionalPaths::Paths& BidirectionalPaths::threadPaths() {
   return paths;
 }
 
+void BidirectionalPaths::traceCamera(Paths& paths, const CameraRay& camera, size_t bounces,
+                                     SampleStream& stream, RayCounts& rays,
+                                     EmissionSink* emission) const {
+  const double pdf = densities_.cameraPdf(camera.ray.d, camera.ray.time);
+  tracer_.fromCamera(camera, pdf, bounces, stream, paths.numbersOf(scene_), paths.camera, rays,
+                     emission);
+}
+
+void BidirectionalPaths::traceLight(Paths& paths, size_t bounces, SampleStream& stream,
+                                    RayCounts& rays) const {
+  tracer_.fromLight(paths.ray, bounces, stream, paths.numbersOf(scene_), paths.light, rays);
+}
+
 Rgb BidirectionalPaths::all(int maxDepth, const CameraRay& camera, SampleStream& stream,
                             RenderState& state, SplatSink& splats) const {
   Paths& paths = threadPaths();
-  paths.time = camera.ray.time;
+  paths.ray = camera.ray;
+  if (!scene_.media.empty()) paths.numbers = numbersBeyond(stream, kSeedDimension);
   Found found(*this, paths, 0);
-  const auto surfaces = static_cast<size_t>(maxDepth), edges = surfaces + 1;
-  const double pdf = densities_.cameraPdf(camera.ray.d, paths.time);
-  tracer_.fromCamera(camera, pdf, surfaces, stream, paths.camera, state.rays, &found);
+  const auto bounces = static_cast<size_t>(maxDepth), edges = bounces + 1;
+  traceCamera(paths, camera, bounces, stream, state.rays, &found);
   Rgb sum = found.sum;
-  if (state.aov && paths.camera.size() > 1) {
+  if (state.aov && paths.camera.size() > 1 && paths.camera[1].isSurface()) {
     stream.setDimension(cameraDimension(1) + kDirectionOffset);
     recordSurface(*state.aov, paths.camera[1].at, paths.camera[1].bsdf, stream);
   }
   if (emitters_.empty() || !distribution_) return sum;
-  tracer_.fromLight(paths.time, surfaces, stream, paths.light, state.rays);
+  traceLight(paths, bounces, stream, state.rays);
   const size_t s = std::max<size_t>(paths.light.size(), 1);
   for (size_t t = 2; t <= paths.camera.size() && t <= edges; ++t)
     for (size_t i = 1; i <= s && i + t <= edges + 1; ++i)
@@ -127,21 +145,20 @@ PathStrategy BidirectionalPaths::strategy(int depth, size_t number) const {
 
 Splat BidirectionalPaths::one(const PathStrategy& strategy, const Vec2& film,
                               const CameraRay& camera, SampleStream& stream,
-                              RayCounts& rays) const {
+                              const NumberSequence& numbers, RayCounts& rays) const {
   const size_t s = strategy.fromLight, t = strategy.fromCamera;
   Paths& paths = threadPaths();
-  paths.time = camera.ray.time;
+  paths.ray = camera.ray;
+  paths.numbers = numbers;
   Splat result{film, Rgb()};
   if (t > 1) {
     Found found(*this, paths, t - 1);
-    const double pdf = densities_.cameraPdf(camera.ray.d, paths.time);
-    tracer_.fromCamera(camera, pdf, s > 0 ? t - 1 : t - 2, stream, paths.camera, rays,
-                       s > 0 ? nullptr : &found);
+    traceCamera(paths, camera, s > 0 ? t - 1 : t - 2, stream, rays, s > 0 ? nullptr : &found);
     result.value = found.sum;
     if (s == 0 || paths.camera.size() < t) return result;
   }
   if (s > 1) {
-    tracer_.fromLight(paths.time, s - 1, stream, paths.light, rays);
+    traceLight(paths, s - 1, stream, rays);
     if (paths.light.size() < s) return result;
   }
   if (t > 1)
@@ -154,7 +171,7 @@ Splat BidirectionalPaths::one(const PathStrategy& strategy, const Vec2& film,
 /// Paths of s ≥ 1 vertices from the light's side and t ≥ 2 from the camera's.
 Rgb BidirectionalPaths::joined(Paths& paths, size_t s, size_t t, SampleStream& stream,
                                RayCounts& rays) const {
-  if (paths.camera[t - 1].bsdf.isSpecular()) return Rgb();
+  if (paths.camera[t - 1].isSpecular()) return Rgb();
   return s > 1 ? connect(paths, s, t, rays) : sampleLight(paths, t, stream, rays);
 }
 
@@ -163,7 +180,7 @@ Rgb BidirectionalPaths::sampleLight(Paths& paths, size_t t, SampleStream& stream
                                     RayCounts& rays) const {
   const PathVertex& v = paths.camera[t - 1];
   stream.setDimension(cameraDimension(t - 1));
-  const LightSampleContext at = contextOf(v);
+  const LightSampleContext at = v.context();
   const float choice = stream.next1D();
   const Vec2 u = stream.next2D();
   const auto chosen = distribution_->sample(at, choice);
@@ -171,9 +188,10 @@ Rgb BidirectionalPaths::sampleLight(Paths& paths, size_t t, SampleStream& stream
   const LightTable::Entry entry = scene_.lightTable[chosen->light];
   const auto s = entry.light->sample(entry.element, at.p, u);
   if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return Rgb();
-  const Rgb light = v.throughput * v.bsdf.f(at.wo, s->wi) * s->radiance *
-                    (v.bsdf.absCosTheta(s->wi) / (chosen->pmf * s->pdf));
-  if (light.isBlack() || !isVisible(shadowRay(at, paths.time, *s), rays)) return Rgb();
+  Rgb light =
+      v.throughput * v.f(at.wo, s->wi) * s->radiance * (v.cosine(s->wi) / (chosen->pmf * s->pdf));
+  if (!light.isBlack()) light *= passing(paths, v, *s, rays);
+  if (light.isBlack()) return Rgb();
   PathVertex start;
   start.kind = PathVertex::Kind::Light;
   start.infinite = entry.light->isInfinite();
@@ -181,7 +199,7 @@ Rgb BidirectionalPaths::sampleLight(Paths& paths, size_t t, SampleStream& stream
   start.at.p = s->p;
   start.at.n = s->n;
   start.at.wo = s->wi;
-  return light * static_cast<float>(densities_.weight(paths.join(start, 1, t), paths.time));
+  return light * static_cast<float>(densities_.weight(paths.join(start, 1, t), paths.time()));
 }
 
 /// An edge between the walks' vertices s − 1 and t − 1.
@@ -189,57 +207,45 @@ Rgb BidirectionalPaths::connect(Paths& paths, size_t s, size_t t, RayCounts& ray
   const PathVertex &l = paths.light[s - 1], &c = paths.camera[t - 1];
   const Vec3 d = l.at.p - c.at.p, w = normalize(d);
   if (w == Vec3(0)) return Rgb();
-  const Rgb light = c.throughput * c.bsdf.f(c.at.wo, w) * c.bsdf.absCosTheta(w) *
-                    scatteredFromLight(l, -w) / lengthSquared(d);
+  Rgb light =
+      c.throughput * c.f(c.at.wo, w) * c.cosine(w) * scatteredFromLight(l, -w) / lengthSquared(d);
   if (light.isBlack() || !light.isFinite()) return Rgb();
-  if (!isVisible(shadowRay(contextOf(c), paths.time, targetAt(l, w)), rays)) return Rgb();
+  light *= passing(paths, c, targetAt(l, w), rays);
+  if (light.isBlack()) return Rgb();
   return light *
-         static_cast<float>(densities_.weight(paths.join(paths.light[0], s, t), paths.time));
+         static_cast<float>(densities_.weight(paths.join(paths.light[0], s, t), paths.time()));
 }
 
 /// An edge from the light's vertex s − 1 to the lens.
 std::optional<Splat> BidirectionalPaths::connectCamera(Paths& paths, size_t s, SampleStream& stream,
                                                        RayCounts& rays) const {
   const PathVertex& l = paths.light[s - 1];
-  if (l.bsdf.isSpecular()) return std::nullopt;
+  if (l.isSpecular()) return std::nullopt;
   stream.setDimension(lightDimension(s - 1) + 1);
-  const auto view = camera_.project(l.at.p, stream.next2D(), paths.time);
+  const auto view = camera_.project(l.at.p, stream.next2D(), paths.time());
   if (!view) return std::nullopt;
   const Vec3 d = view->lens - l.at.p, w = normalize(d);
-  const Rgb value =
+  Rgb value =
       scatteredFromLight(l, w) * (view->pixelsPerSteradian * splatFactor_ / lengthSquared(d));
   if (value.isBlack() || !value.isFinite()) return std::nullopt;
   PathVertex lens;
   lens.kind = PathVertex::Kind::Camera;
   lens.at.p = view->lens;
   lens.at.n = Vec3(0);
-  if (!isVisible(shadowRay(contextOf(l), paths.time, targetAt(lens, w)), rays)) return std::nullopt;
+  value *= passing(paths, l, targetAt(lens, w), rays);
+  if (value.isBlack()) return std::nullopt;
   paths.join(paths.light[0], s, 0);
   paths.whole.vertices.push_back(&lens);
-  const auto weight = static_cast<float>(densities_.weight(paths.whole, paths.time));
+  const auto weight = static_cast<float>(densities_.weight(paths.whole, paths.time()));
   return Splat{view->film, value * weight};
 }
 
-/// As in pbrt-v3's bdpt, and unlike its path, interfaces block no light.
-bool BidirectionalPaths::isVisible(const Ray& segment, RayCounts& rays) const {
-  ++rays.shadow;
-  const Geometry& geometry = *scene_.geometry;
-  if (!geometry.occluded(segment)) return true;
-  Ray ray = segment;
-  const bool finite = std::isfinite(segment.tMax);
-  const Vec3 end = segment.at(finite ? segment.tMax : 0);
-  for (int i = 0; i <= kMaxInterfaces; ++i) {
-    ++rays.closest;
-    const auto hit = geometry.intersect(ray);
-    if (!hit) return true;
-    if (geometry.primitive(*hit).material) return false;
-    const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);
-    ray.o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
-    if (!finite) continue;
-    ray.tMax = dot(end - ray.o, ray.d) / lengthSquared(ray.d);
-    if (!(ray.tMax > 0)) return true;
-  }
-  return false;
+/// Share of the light that passes between them. As in pbrt-v3's bdpt, and unlike its path,
+/// interfaces block no light.
+Rgb BidirectionalPaths::passing(Paths& paths, const PathVertex& from, const LightSample& to,
+                                RayCounts& rays) const {
+  const Ray ray = unitShadowRay(from.context(), paths.time(), to);
+  return transmittance(scene_, ray, from.mediumTowards(to.wi), paths.numbers, rays);
 }
 
 }  // namespace lampyris

@@ -46,20 +46,24 @@ class BidirectionalPaths {
   /// The one of this number, < strategyCount(depth).
   PathStrategy strategy(int depth, size_t number) const;
   /// What this strategy alone brings: with two and more vertices from the camera, to where the ray
-  /// comes from (`film`), as radiance; else as a splat.
+  /// comes from (`film`), as radiance; else as a splat. `numbers`: for what of media the stream's
+  /// do not cover.
   Splat one(const PathStrategy& strategy, const Vec2& film, const CameraRay& camera,
-            SampleStream& stream, RayCounts& rays) const;
+            SampleStream& stream, const NumberSequence& numbers, RayCounts& rays) const;
 
  private:
   class Found;
   struct Paths;
   static Paths& threadPaths();
+  void traceCamera(Paths& paths, const CameraRay& camera, size_t bounces, SampleStream& stream,
+                   RayCounts& rays, EmissionSink* emission) const;
+  void traceLight(Paths& paths, size_t bounces, SampleStream& stream, RayCounts& rays) const;
   Rgb joined(Paths& paths, size_t s, size_t t, SampleStream& stream, RayCounts& rays) const;
   Rgb sampleLight(Paths& paths, size_t t, SampleStream& stream, RayCounts& rays) const;
   Rgb connect(Paths& paths, size_t s, size_t t, RayCounts& rays) const;
   std::optional<Splat> connectCamera(Paths& paths, size_t s, SampleStream& stream,
                                      RayCounts& rays) const;
-  bool isVisible(const Ray& segment, RayCounts& rays) const;
+  Rgb passing(Paths& paths, const PathVertex& from, const LightSample& to, RayCounts& rays) const;
 
   const Scene& scene_;
   const Camera& camera_;

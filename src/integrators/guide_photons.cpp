@@ -40,7 +40,7 @@ std::vector<GuidePhoton> traceGuidePhotons(const Scene& scene, int count, int ma
     RayCounts rays;
     for (size_t c = begin; c < end; ++c)
       for (size_t i = c * kChunk; i < std::min((c + 1) * kChunk, photons); ++i) {
-        tracer.fromLight(0, surfaces, SampleStream(numbers, {Int2(0), i}), path, rays);
+        tracer.fromLight(Ray(), surfaces, SampleStream(numbers, {Int2(0), i}), nullptr, path, rays);
         for (size_t v = 2; v < path.size(); ++v)
           if (!path[v].bsdf.isSpecular())
             found[c].push_back({path[v].at.p, path[v].at.wo, path[v].throughput.luminance()});

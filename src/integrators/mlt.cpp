@@ -36,6 +36,7 @@ class MltIntegrator final : public Integrator {
   uint64_t render(RenderContext& context) const override {
     return MltRenderer(context, distribution_.get(), settings_).render();
   }
+  bool rendersMedia() const override { return true; }
   bool resumes() const override { return false; }
   bool samplesPixels() const override { return false; }
 

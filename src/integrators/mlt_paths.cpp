@@ -38,7 +38,7 @@ MltPaths::MltPaths(const RenderContext& context, const LightDistribution* distri
 
 size_t MltPaths::dimensions(int depth) { return lightDimension(static_cast<size_t>(depth) + 2); }
 
-Splat MltPaths::path(int depth, const Sampler& numbers, RayCounts& rays) const {
+Splat MltPaths::path(int depth, const PrimarySamples& numbers, RayCounts& rays) const {
   SampleStream stream(numbers, {});
   CameraSample sample;
   sample.film = Vec2(area_.min) + stream.next2D() * Vec2(area_.size());
@@ -53,7 +53,8 @@ Splat MltPaths::path(int depth, const Sampler& numbers, RayCounts& rays) const {
   const bool fromCamera = strategy.fromCamera > 1;
   const float weight = fromCamera ? camera.weight * areaFactor_ : 1;
   if (!(weight > 0)) return {};
-  Splat splat = paths_.one(strategy, sample.film, camera, stream, rays);
+  const NumberSequence more(numbers.steadySeed());
+  Splat splat = paths_.one(strategy, sample.film, camera, stream, more, rays);
   splat.value *= contains(area_, splat.film) ? weight * count : 0.f;
   return splat;
 }

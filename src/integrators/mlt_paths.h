@@ -3,6 +3,7 @@
 #pragma once
 
 #include "integrators/bidirectional.h"
+#include "integrators/primary_samples.h"
 
 namespace lampyris {
 
@@ -18,7 +19,7 @@ class MltPaths {
   /// What a path of `depth` bounces brings: of one of the strategies that make such paths, which is
   /// drawn as well. Its mean over uniform numbers is the film's mean of all such paths; black if it
   /// lies where no pixel is.
-  Splat path(int depth, const Sampler& numbers, RayCounts& rays) const;
+  Splat path(int depth, const PrimarySamples& numbers, RayCounts& rays) const;
 
  private:
   const Camera& camera_;

@@ -19,7 +19,7 @@ double PathDensities::scattered(const PathVertex* before, const PathVertex& at,
     const EmissionPdf emission = light.light->emissionPdf(light.element, at.at.n, w);
     pdf = static_cast<double>(at.infinite ? emission.position : emission.direction);
   } else if (before) {
-    pdf = static_cast<double>(at.bsdf.pdf(direction(at, *before), w));
+    pdf = static_cast<double>(at.pdf(direction(at, *before), w));
   }
   return densityAt(next, at, pdf);
 }
@@ -53,7 +53,7 @@ double PathDensities::startDensity(const WholePath& path, size_t fromLight) cons
     return static_cast<double>(emitters_.pmf(start.light)) *
            static_cast<double>(start.infinite ? emission.direction : emission.position);
   }
-  LightSampleContext at(next.at, next.bsdf);
+  LightSampleContext at = next.context();
   at.wo = direction(next, *path.vertices[2]);
   const auto pmf = static_cast<double>(distribution_->pmf(at, start.light));
   if (light.light->isDelta()) return pmf;

@@ -21,6 +21,9 @@ struct WholePath {
 
 /// Weighs with the balance heuristic over the number of vertices from the light's side (Veach 1997,
 /// §10.2). Where pbrt-v3 takes light sampling's density for that of emission, here it is its own.
+/// As in pbrt-v3, in media densities leave out those of distances, which are not known in closed
+/// form: collisions are drawn alike from both sides, and what remains of them is one over the
+/// transmittance of the edge that joins. Any weights that sum to one over the strategies will do.
 class PathDensities {
  public:
   /// `pixels`: how many are rendered; each has as many paths from the camera as from the lights.

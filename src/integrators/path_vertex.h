@@ -5,7 +5,8 @@
 #include <deque>
 
 #include "base/bsdf.h"
-#include "base/light.h"
+#include "base/light_distribution.h"
+#include "base/medium.h"
 
 namespace lampyris {
 
@@ -13,7 +14,7 @@ namespace lampyris {
 /// a Dirac delta (specular scattering, lights of one point or direction) leave out the delta, which
 /// all strategies that can make the path have in common.
 struct PathVertex {
-  enum class Kind : uint8_t { Camera, Light, Surface };
+  enum class Kind : uint8_t { Camera, Light, Surface, Medium };
 
   Kind kind = Kind::Surface;
   /// Of a light or surface that has no place, and so sends its light along −at.wo.
@@ -23,10 +24,31 @@ struct PathVertex {
   LightId light = kNoLight;  ///< of a light
   /// Where; at.n = 0 for a point without surface. at.wo points to where its subpath comes from.
   SurfaceInteraction at;
-  Bsdf bsdf;           ///< of a surface
-  Rgb throughput{1};   ///< of the subpath up to here, over its density
-  double forward = 0;  ///< density with which its own subpath drew it
+  Bsdf bsdf;                       ///< of a surface
+  const Medium* medium = nullptr;  ///< that its subpath comes through; null: none
+  Rgb throughput{1};               ///< of the subpath up to here, over its density
+  double forward = 0;              ///< density with which its own subpath drew it
   double reverse = 0;  ///< density with which the next vertex, looking back, would draw it
+
+  bool isSurface() const { return kind == Kind::Surface; }
+
+  // Of a surface or a point of a medium: BSDF and its cosine, or phase function and 1.
+  Rgb f(const Vec3& wo, const Vec3& wi) const {
+    return isSurface() ? bsdf.f(wo, wi) : Rgb(medium->phase().p(wo, wi));
+  }
+  float pdf(const Vec3& wo, const Vec3& wi) const {
+    return isSurface() ? bsdf.pdf(wo, wi) : medium->phase().p(wo, wi);
+  }
+  float cosine(const Vec3& w) const { return isSurface() ? bsdf.absCosTheta(w) : 1; }
+  /// What stands for the cosine where light comes from `in` and leaves towards `out`: sides by the
+  /// geometric normal, which densities know, cosines by the shading normal (Veach 1997, §5.3).
+  float importanceCosine(const Vec3& in, const Vec3& out) const;
+  bool isSpecular() const { return isSurface() && bsdf.isSpecular(); }
+  std::optional<BsdfSample> sample(float uc, const Vec2& u) const;
+  /// Where light is sampled for it.
+  LightSampleContext context() const;
+  /// That a ray in the direction `w` from here goes through.
+  const Medium* mediumTowards(const Vec3& w) const;
 };
 
 /// From a towards b, unit; not both are at infinity.

@@ -24,6 +24,7 @@ float wrapped(float x) { return std::min(x - std::floor(x), kOneMinusEpsilon); }
 void PrimarySamples::propose(uint64_t seed, float sigma) {
   seed_ = seed;
   sigma_ = sigma;
+  proposedSteady_ = sigma == 0 ? seed : currentSteady_;
   std::fill(proposed_.begin(), proposed_.end(), kUnknown);
 }
 

@@ -24,12 +24,17 @@ class PrimarySamples final : public Sampler {
   /// the ends of [0, 1).
   void proposeNear(uint64_t seed, float sigma) { propose(seed, sigma); }
   /// Makes the proposal the current point.
-  void accept() { current_.swap(proposed_); }
+  void accept() {
+    current_.swap(proposed_);
+    currentSteady_ = proposedSteady_;
+  }
 
   /// Of the proposal. The address counts for nothing.
   float get1D(const SampleAddress& address, uint32_t dimension) const override;
   Vec2 get2D(const SampleAddress& address, uint32_t dimension) const override;
   int samplesPerPixel() const override { return 1; }
+  /// A coordinate of the proposal that small steps leave alone: a seed for what has no dimension.
+  uint64_t steadySeed() const { return proposedSteady_; }
 
  private:
   static constexpr float kUnknown = -1;
@@ -37,6 +42,7 @@ class PrimarySamples final : public Sampler {
 
   std::vector<float> current_;
   mutable std::vector<float> proposed_;  ///< filled as it is asked for
+  uint64_t currentSteady_ = 0, proposedSteady_ = 0;
   uint64_t seed_ = 0;
   float sigma_ = 0;  ///< 0: independent of the current point
 };

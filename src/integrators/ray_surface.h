@@ -24,4 +24,11 @@ inline SurfaceInteraction surfaceAt(const Geometry& geometry, const Ray& ray, co
   return at;
 }
 
+/// Lets `ray` (unit direction), which has found `at`, go on behind it to where it was to end.
+inline void startBehind(Ray& ray, const SurfaceInteraction& at) {
+  const Vec3 o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
+  ray.tMax -= dot(o - ray.o, ray.d);
+  ray.o = o;
+}
+
 }  // namespace lampyris

@@ -141,8 +141,8 @@ void SppmEstimator::tracePhoton(uint64_t iteration, size_t number, Subpath& path
   sample.film = Vec2(pixels.min + at) + 0.5f;
   stream.setDimension(4);
   sample.time = stream.next1D();
-  tracer_.fromLight(context_.camera.generate(sample).ray.time, static_cast<size_t>(maxDepth_),
-                    stream, path, rays);
+  tracer_.fromLight(context_.camera.generate(sample).ray, static_cast<size_t>(maxDepth_), stream,
+                    nullptr, path, rays);
   for (size_t i = 2; i < path.size(); ++i) {
     const PathVertex& v = path[i];
     if (!v.bsdf.isSpecular())
@@ -179,7 +179,7 @@ bool SppmEstimator::findSurface(CameraPath& path, RenderState& state,
     if (primitive.light && path.specular)
       path.radiance += path.throughput * primitive.light->emitted(at, at.wo);
     if (primitive.material) return true;
-    path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);
+    startBehind(path.ray, at);
   }
   return false;
 }

@@ -25,12 +25,26 @@ Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSeque
     if (!hit || share.isBlack()) return share;
     const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);
     medium = mediumBeyond(*at.primitive, medium, ray.d, at.n);
-    const Vec3 o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
-    ray.tMax -= dot(o - ray.o, ray.d);
-    ray.o = o;
+    startBehind(ray, at);
     if (!(ray.tMax > 0)) return share;
   }
   return Rgb();
+}
+
+const Medium* mediumAt(const Scene& scene, const Vec3& p, const Ray& camera, RayCounts& rays) {
+  const Geometry& geometry = *scene.geometry;
+  const Vec3 d = camera.o - p;
+  Ray ray{p, normalize(d), length(d), camera.time};
+  for (int passed = 0; passed < kMaxInterfaces && ray.tMax > 0; ++passed) {
+    ++rays.closest;
+    const auto hit = geometry.intersect(ray);
+    if (!hit) break;
+    const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);
+    const MediumInterface& media = at.primitive->media;
+    if (media.isTransition()) return media.towards(-ray.d, at.n);
+    startBehind(ray, at);
+  }
+  return scene.cameraMedium;
 }
 
 }  // namespace lampyris

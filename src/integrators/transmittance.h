@@ -18,4 +18,7 @@ inline const Medium* mediumBeyond(const Primitive& primitive, const Medium* curr
 Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
                   RayCounts& rays);
 
+/// The medium around the point `p`, told by the surfaces between it and where `camera` starts.
+const Medium* mediumAt(const Scene& scene, const Vec3& p, const Ray& camera, RayCounts& rays);
+
 }  // namespace lampyris

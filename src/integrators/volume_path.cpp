@@ -10,6 +10,7 @@
 #include "integrators/direction_mixture.h"
 #include "integrators/light_connection.h"
 #include "integrators/ray_surface.h"
+#include "integrators/sample_numbers.h"
 #include "integrators/subsurface.h"
 #include "integrators/transmittance.h"
 
@@ -64,14 +65,6 @@ struct VolumePathEstimator::Path {
     stream.setDimension(kFirstPathDimension +
                         static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
   }
-  void seedNumbers() {
-    stream.setDimension(kFirstPathDimension + kSeedOffset);
-    const SampleAddress& a = stream.address();
-    const uint64_t pixel =
-        hashCombine(static_cast<uint32_t>(a.pixel.x), static_cast<uint32_t>(a.pixel.y));
-    const auto seeded = std::bit_cast<uint32_t>(stream.next1D());
-    numbers = NumberSequence(hashCombine(hashCombine(pixel, a.index), seeded));
-  }
 };
 
 void GuidedMemory::finish(const Rgb& radiance) {
@@ -106,7 +99,8 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   Path path(camera, scene_.cameraMedium, stream, state);
   path.memory = static_cast<GuidedMemory*>(state.memory.get());
   path.learns = path.memory && guidance_.collect && stream.address().index % guidance_.stride == 0;
-  if (path.memory || scattersBelow_ || !scene_.media.empty()) path.seedNumbers();
+  if (path.memory || scattersBelow_ || !scene_.media.empty())
+    path.numbers = numbersBeyond(stream, kFirstPathDimension + kSeedOffset);
   while (true) {
     ++state.rays.closest;
     const auto hit = scene_.geometry->intersect(path.ray);
@@ -198,7 +192,7 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
     if (++path.interfaces > kMaxInterfaces) return false;
     path.differential = nullptr;
     path.medium = mediumBeyond(primitive, path.medium, path.ray.d, at.n);
-    path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);
+    startBehind(path.ray, at);
     return true;
   }
   if (last || !survives(path)) return false;

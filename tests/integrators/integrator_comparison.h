@@ -56,4 +56,42 @@ inline void expectSameMean(const std::string& a, const std::string& b, const std
   expectSameMean(roomView(a), roomView(b), world, samples);
 }
 
+/// Few mutations, so that what would be biased at the start of chains shows.
+inline std::string mlt(int depth, const std::string& more = "") {
+  return "\"mlt\" \"integer bootstrapsamples\" 500 \"integer chains\" 40 \"integer maxdepth\" " +
+         std::to_string(depth) + more;
+}
+
+/// Means over the quarters of an image.
+inline std::vector<double> quarters(const std::string& text, uint64_t seed, uint64_t samples) {
+  BuildOptions options;
+  options.seed = seed;
+  TinyScene scene(text, options);
+  scene.render(samples);
+  EXPECT_EQ(scene.badSamples(), 0);
+  const auto greens = scene.greens();
+  const Int2 size = scene.film().bounds().size();
+  std::vector<double> sums(4);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      sums[static_cast<size_t>((2 * y < size.y ? 0 : 2) + (2 * x < size.x ? 0 : 1))] +=
+          greens[static_cast<size_t>(y * size.x + x)] * 4 / (size.x * size.y);
+  return sums;
+}
+
+/// For images whose pixels depend on each other: means over independent images agree.
+inline void expectSameImage(const std::string& text, const std::string& reference,
+                            uint64_t samples = 16, uint64_t referenceSamples = 64) {
+  constexpr uint64_t kImages = 24;
+  std::vector<std::vector<double>> difference(4);
+  double mean = 0;
+  for (uint64_t i = 0; i < kImages; ++i) {
+    const auto a = quarters(text, i, samples), b = quarters(reference, 500 + i, referenceSamples);
+    for (size_t q = 0; q < 4; ++q) difference[q].push_back(a[q] - b[q]), mean += b[q];
+  }
+  EXPECT_GT(mean, 0);
+  for (size_t q = 0; q < 4; ++q)
+    EXPECT_EQ(meanTest(difference[q], 0), "") << "quarter " << q << " of\n" << text;
+}
+
 }  // namespace lampyris::test

@@ -62,43 +62,19 @@ TEST(PrimarySamples, ForgetsWhatNobodyAskedForAndRejectsWhole) {
   EXPECT_GT(std::abs(samples.get1D({}, 0) - first), 1e-3);
 }
 
-/// Few mutations, so that what would be biased at the start of chains shows.
-std::string mlt(int depth, const std::string& more = "") {
-  return "\"mlt\" \"integer bootstrapsamples\" 500 \"integer chains\" 40 \"integer maxdepth\" " +
-         std::to_string(depth) + more;
+TEST(PrimarySamples, SmallStepsKeepTheSeed) {
+  PrimarySamples samples(1);
+  samples.proposeAnew(1);
+  const uint64_t first = samples.steadySeed();
+  samples.accept();
+  samples.proposeAnew(2);
+  EXPECT_NE(samples.steadySeed(), first);
+  samples.proposeNear(3, 0.1f);  // number 2 was rejected
+  EXPECT_EQ(samples.steadySeed(), first);
 }
+
 std::string path(int depth) { return "\"path\" \"integer maxdepth\" " + std::to_string(depth); }
 
-/// Means over the quarters of the image.
-std::vector<double> quarters(const std::string& text, uint64_t seed, uint64_t samples) {
-  BuildOptions options;
-  options.seed = seed;
-  TinyScene scene(text, options);
-  scene.render(samples);
-  EXPECT_EQ(scene.badSamples(), 0);
-  const auto greens = scene.greens();
-  const Int2 size = scene.film().bounds().size();
-  std::vector<double> sums(4);
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x)
-      sums[static_cast<size_t>((2 * y < size.y ? 0 : 2) + (2 * x < size.x ? 0 : 1))] +=
-          greens[static_cast<size_t>(y * size.x + x)] * 4 / (size.x * size.y);
-  return sums;
-}
-
-void expectSameImage(const std::string& text, const std::string& reference, uint64_t samples = 16,
-                     uint64_t referenceSamples = 64) {
-  constexpr uint64_t kImages = 24;
-  std::vector<std::vector<double>> difference(4);
-  double mean = 0;
-  for (uint64_t i = 0; i < kImages; ++i) {
-    const auto a = quarters(text, i, samples), b = quarters(reference, 500 + i, referenceSamples);
-    for (size_t q = 0; q < 4; ++q) difference[q].push_back(a[q] - b[q]), mean += b[q];
-  }
-  EXPECT_GT(mean, 0);
-  for (size_t q = 0; q < 4; ++q)
-    EXPECT_EQ(meanTest(difference[q], 0), "") << "quarter " << q << " of\n" << text;
-}
 void expectPathsImage(const std::string& world, int depth, TinyView view = roomView("")) {
   TinyView reference = view;
   view.integrator = mlt(depth);
