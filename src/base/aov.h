@@ -32,6 +32,8 @@ inline constexpr std::array<std::string_view, 10> kAovNames = {
 
 class AovSet {
  public:
+  AovSet() = default;
+  explicit AovSet(uint32_t bits) : bits_(bits) {}
   void add(Aov a) { bits_ |= bit(a); }
   bool has(Aov a) const { return bits_ & bit(a); }
   bool empty() const { return bits_ == 0; }

@@ -82,16 +82,16 @@ double varianceOfMean(double sum, double squares, double n) {
   return n < 2 ? 0 : std::max(0., squares / n - sqr(sum / n)) / (n - 1);
 }
 
-double layerValue(const Layout& layout, size_t channel, const PixelSums& pixel, const double* sums,
+double layerValue(const Layout& layout, size_t channel, const PixelSums& pixel, const WideSum* sums,
                   double scale) {
   const auto n = static_cast<double>(pixel.count);
   if (layout.aov == Aov::SampleCount) return n;
   if (layout.aov == Aov::Variance) {
-    const std::array<double, 3> rgb{pixel.r, pixel.g, pixel.b};
-    return sqr(scale) * varianceOfMean(rgb[channel], sums[channel], n);
+    const std::array<double, 3> rgb{pixel.r.high, pixel.g.high, pixel.b.high};
+    return sqr(scale) * varianceOfMean(rgb[channel], sums[channel].high, n);
   }
-  const double divisor = layout.weighted ? sums[layout.sums] : n;
-  return divisor > 0 ? sums[channel] / divisor : 0;
+  const double divisor = layout.weighted ? sums[layout.sums].high : n;
+  return divisor > 0 ? sums[channel].high / divisor : 0;
 }
 
 }  // namespace
@@ -107,10 +107,10 @@ AovSums::AovSums(AovSet set, size_t pixels) : set_(set) {
 
 size_t AovSums::sumsPerPixel(AovSet set) { return AovSums(set, 0).stride_; }
 
-double* AovSums::of(size_t pixel, Aov aov) {
+WideSum* AovSums::of(size_t pixel, Aov aov) {
   return values_.data() + pixel * stride_ + offset_[static_cast<size_t>(aov)];
 }
-const double* AovSums::of(size_t pixel, Aov aov) const {
+const WideSum* AovSums::of(size_t pixel, Aov aov) const {
   return values_.data() + pixel * stride_ + offset_[static_cast<size_t>(aov)];
 }
 
@@ -119,16 +119,16 @@ void AovSums::add(size_t pixel, const AovRecord& record) {
     if (!set_.has(l.aov) || l.sums == 0) continue;
     const Contribution c = contributionOf(l.aov, record);
     if (!std::isfinite(c.values[0] + c.values[1] + c.values[2] + c.weight)) continue;
-    double* const sums = of(pixel, l.aov);
-    for (size_t i = 0; i < l.sums; ++i) sums[i] += c.values[i];
-    if (l.weighted) sums[l.sums] += c.weight;
+    WideSum* const sums = of(pixel, l.aov);
+    for (size_t i = 0; i < l.sums; ++i) sums[i].add(c.values[i]);
+    if (l.weighted) sums[l.sums].add(c.weight);
   }
 }
 
 void AovSums::addColour(size_t pixel, const std::array<double, 3>& rgb) {
   if (!set_.has(Aov::Variance)) return;
-  double* const squares = of(pixel, Aov::Variance);
-  for (size_t c = 0; c < rgb.size(); ++c) squares[c] += sqr(rgb[c]);
+  WideSum* const squares = of(pixel, Aov::Variance);
+  for (size_t c = 0; c < rgb.size(); ++c) squares[c].add(sqr(rgb[c]));
 }
 
 std::vector<ImageLayer> AovSums::layers(std::span<const PixelSums> pixels, double scale) const {

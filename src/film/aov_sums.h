@@ -18,7 +18,7 @@ class AovSums {
   AovSums(AovSet set, size_t pixels);
 
   AovSet set() const { return set_; }
-  /// Doubles a pixel that a set takes.
+  /// Sums a pixel that a set takes.
   static size_t sumsPerPixel(AovSet set);
 
   /// Adds a path's record. Values that are not finite count as 0.
@@ -30,17 +30,17 @@ class AovSums {
   /// are. `scale` is the film's factor on the pixels.
   std::vector<ImageLayer> layers(std::span<const PixelSums> pixels, double scale) const;
 
-  std::span<double> values() { return values_; }
-  std::span<const double> values() const { return values_; }
+  std::span<WideSum> values() { return values_; }
+  std::span<const WideSum> values() const { return values_; }
 
  private:
-  double* of(size_t pixel, Aov aov);
-  const double* of(size_t pixel, Aov aov) const;
+  WideSum* of(size_t pixel, Aov aov);
+  const WideSum* of(size_t pixel, Aov aov) const;
 
   AovSet set_;
   size_t stride_ = 0;
   std::array<size_t, kAovNames.size()> offset_{};
-  std::vector<double> values_;
+  std::vector<WideSum> values_;
 };
 
 }  // namespace lampyris

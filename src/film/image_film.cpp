@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,9 +12,7 @@
 #include "core/image.h"
 #include "core/math.h"
 #include "core/memory.h"
-#include "film/aov_sums.h"
-#include "film/light_image.h"
-#include "film/pixel_sums.h"
+#include "film/film_sums.h"
 
 namespace lampyris {
 
@@ -46,22 +43,6 @@ struct ImageFilmParameters {
   }
 };
 
-/// Plain loads and stores that another thread may race with: a preview reads sums while samples
-/// are added. Each value is whole; sums and count may differ by one sample.
-template <class T>
-T load(const T& v) {
-  return std::atomic_ref<T>(const_cast<T&>(v)).load(std::memory_order_relaxed);
-}
-template <class T>
-void store(T& v, T to) {
-  std::atomic_ref<T>(v).store(to, std::memory_order_relaxed);
-}
-
-float toFloat(double v) {
-  constexpr double kMax = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(v, 0., kMax));
-}
-
 /// Colours outside the sRGB gamut have negative components, but light has no negative luminance
 /// beyond what rounding leaves of the largest component.
 bool isValid(const Rgb& c) {
@@ -74,145 +55,69 @@ class ImageFilm final : public Film {
   ImageFilm(const ImageFilmParameters& p, const PixelBounds& bounds, AovSet aovs,
             std::unique_ptr<Filter> filter)
       : resolution_(p.xResolution, p.yResolution),
-        bounds_(bounds),
         filter_(std::move(filter)),
         filename_(p.filename),
-        scale_(static_cast<double>(p.scale)),
         maxLuminance_(p.maxSampleLuminance),
-        pixels_(static_cast<size_t>(bounds.area())),
-        aovs_(aovs, pixels_.size()),
-        lightImage_(bounds, *filter_) {}
+        sums_({resolution_, bounds, aovs, static_cast<double>(p.scale)}, filter_.get()) {}
 
   Int2 resolution() const override { return resolution_; }
-  PixelBounds bounds() const override { return bounds_; }
+  PixelBounds bounds() const override { return sums_.frame().bounds; }
   const Filter& filter() const override { return *filter_; }
   const std::string& filename() const override { return filename_; }
 
   bool addSample(const Int2& pixel, const Rgb& radiance, float weight) override {
-    const size_t i = index(pixel);
-    PixelSums& sums = pixels_[i];
-    store(sums.count, sums.count + 1);
-    if (!isValid(radiance)) return false;
+    const size_t i = sums_.index(pixel);
+    if (!isValid(radiance)) {
+      sums_.addBlack(i);
+      return false;
+    }
     const auto y = static_cast<double>(radiance.luminance());
     const double factor = static_cast<double>(weight) * darkening(y);
-    const std::array<double, 3> rgb{factor * static_cast<double>(radiance.r),
-                                    factor * static_cast<double>(radiance.g),
-                                    factor * static_cast<double>(radiance.b)};
-    store(sums.r, sums.r + rgb[0]);
-    store(sums.g, sums.g + rgb[1]);
-    store(sums.b, sums.b + rgb[2]);
-    store(sums.luminanceSquares, sums.luminanceSquares + sqr(factor * y));
-    aovs_.addColour(i, rgb);
+    sums_.addSample(
+        i,
+        {factor * static_cast<double>(radiance.r), factor * static_cast<double>(radiance.g),
+         factor * static_cast<double>(radiance.b)},
+        factor * y);
     return true;
   }
 
-  AovSet aovs() const override { return aovs_.set(); }
+  AovSet aovs() const override { return sums_.frame().aovs; }
   void addAovs(const Int2& pixel, const AovRecord& record) override {
-    aovs_.add(index(pixel), record);
+    sums_.aovs().add(sums_.index(pixel), record);
   }
 
-  void openLightImage(double typical) override { lightImage_.open(typical); }
+  void openLightImage(double typical) override { sums_.lightImage().open(typical); }
   bool addSplat(const Vec2& film, const Rgb& value) override {
     if (!isValid(value)) return false;
     const double factor = darkening(static_cast<double>(value.luminance()));
-    lightImage_.add(film, value * static_cast<float>(factor));
+    sums_.lightImage().add(film, value * static_cast<float>(factor));
     return true;
   }
-  void addLightPaths(uint64_t count) override { lightImage_.addPaths(count); }
+  void addLightPaths(uint64_t count) override { sums_.lightImage().addPaths(count); }
 
   uint64_t sampleCount(const Int2& pixel) const override {
-    return load(pixels_[index(pixel)].count);
+    return sums_.sampleCount(sums_.index(pixel));
   }
-
-  Rgb pixel(const Int2& pixel) const override {
-    const size_t i = index(pixel);
-    const PixelSums& sums = pixels_[i];
-    const uint64_t count = load(sums.count);
-    const double factor = count > 0 ? 1 / static_cast<double>(count) : 0;
-    const auto light = lightImage_.mean(i);
-    return {toFloat((load(sums.r) * factor + light[0]) * scale_),
-            toFloat((load(sums.g) * factor + light[1]) * scale_),
-            toFloat((load(sums.b) * factor + light[2]) * scale_)};
-  }
-
-  double noise() const override;
-
+  Rgb pixel(const Int2& pixel) const override { return sums_.pixel(sums_.index(pixel)); }
+  double noise() const override { return sums_.noise(); }
   void write(const std::string& path, const ImageMetadata& metadata) const override {
-    const Int2 size = bounds_.size();
-    Image image(size.x, size.y, 3);
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x) image.setRgb(x, y, pixel(bounds_.min + Int2(x, y)));
-    WriteOptions options;
-    options.metadata = metadata;
-    options.placement = {bounds_.min, resolution_};
-    options.layers = aovs_.layers(pixels_, scale_);
-    writeImageFile(path, image, options);
+    sums_.write(path, metadata);
   }
-
-  std::string save() const override {
-    std::string bytes = encodeSums({bounds_, aovs_.set()}, pixels_, aovs_.values());
-    if (lightImage_.isOpen()) bytes += lightImage_.encode();
-    return bytes;
-  }
-  bool restore(const std::string& bytes) override;
+  std::string save() const override { return sums_.save(); }
+  bool restore(const std::string& bytes) override { return sums_.restore(bytes); }
 
  private:
   /// The factor for a sample of luminance `y`.
   double darkening(double y) const {
     return y > static_cast<double>(maxLuminance_) ? static_cast<double>(maxLuminance_) / y : 1;
   }
-  size_t index(const Int2& p) const {
-    assert(bounds_.contains(p));
-    const Int2 local = p - bounds_.min;
-    return static_cast<size_t>(local.y) * static_cast<size_t>(bounds_.size().x) +
-           static_cast<size_t>(local.x);
-  }
 
   Int2 resolution_;
-  PixelBounds bounds_;
   std::unique_ptr<Filter> filter_;
   std::string filename_;
-  double scale_;
   float maxLuminance_;
-  std::vector<PixelSums> pixels_;
-  AovSums aovs_;
-  LightImage lightImage_;
+  FilmSums sums_;
 };
-
-bool ImageFilm::restore(const std::string& bytes) {
-  const SumsKey key{bounds_, aovs_.set()};
-  if (decodeSums(bytes, key, pixels_, aovs_.values())) return true;
-  const size_t tail = lightImage_.encodedSize();
-  if (bytes.size() < tail) return false;
-  const std::string_view all = bytes, light = all.substr(bytes.size() - tail);
-  return LightImage::isIntact(light) &&
-         decodeSums(all.substr(0, bytes.size() - tail), key, pixels_, aovs_.values()) &&
-         lightImage_.decode(light);
-}
-
-/// Of the samples alone: splats, which come from anywhere, keep no squares, but count for the mean.
-/// Infinite as long as no pixel has two samples: nothing is known then, and nobody should stop.
-double ImageFilm::noise() const {
-  double meanSum = 0, errorSum = 0;
-  uint64_t pixels = 0;
-  for (size_t i = 0; i < pixels_.size(); ++i) {
-    const PixelSums& sums = pixels_[i];
-    const uint64_t count = load(sums.count);
-    if (count < 2) continue;
-    const auto n = static_cast<double>(count);
-    const double mean =
-        (0.212671 * load(sums.r) + 0.715160 * load(sums.g) + 0.072169 * load(sums.b)) / n;
-    errorSum += std::max(0., load(sums.luminanceSquares) / n - mean * mean) / (n - 1);
-    const auto light = lightImage_.mean(i);
-    meanSum += mean + 0.212671 * light[0] + 0.715160 * light[1] + 0.072169 * light[2];
-    ++pixels;
-  }
-  if (pixels == 0) return std::numeric_limits<double>::infinity();
-  const auto n = static_cast<double>(pixels);
-  const double error = std::sqrt(errorSum / n), mean = std::abs(meanSum / n);
-  if (error == 0) return 0;
-  return mean > 0 ? error / mean : std::numeric_limits<double>::infinity();
-}
 
 /// pbrt-v3's rule, in its precision: ⌈resolution · fraction⌉ on both ends.
 PixelBounds cropBounds(const ImageFilmParameters& p, SourceLocation where) {
@@ -261,8 +166,7 @@ AovSet aovSet(const std::vector<std::string>& lists, SourceLocation where) {
 
 /// A mistyped resolution should be an error at once, not a machine that swaps to death.
 void checkMemory(const PixelBounds& bounds, AovSet aovs, SourceLocation where) {
-  const size_t pixelBytes = sizeof(PixelSums) + AovSums::sumsPerPixel(aovs) * sizeof(double);
-  const double bytes = static_cast<double>(bounds.area()) * static_cast<double>(pixelBytes);
+  const double bytes = FilmSums::memory({{}, bounds, aovs}, false);
   if (bytes > availableMemory())
     throw SceneError(where, fmt::format("{} x {} pixels need {:.0f} GB of memory, more than there "
                                         "is; render a smaller image or crop window",

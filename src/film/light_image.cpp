@@ -44,7 +44,8 @@ double integralOf(const Filter& filter) {
 
 void LightImage::allocate() {
   sums_.assign(3 * static_cast<size_t>(bounds_.area()), 0);
-  filterFactor_ = 1 / integralOf(filter_);
+  if (!filter_) return;
+  filterFactor_ = 1 / integralOf(*filter_);
   if (!std::isfinite(filterFactor_)) filterFactor_ = 0;
 }
 
@@ -56,7 +57,7 @@ void LightImage::open(double typical) {
 }
 
 void LightImage::add(const Vec2& film, const Rgb& value) {
-  const Vec2 radius = filter_.radius(), at = film - 0.5f;
+  const Vec2 radius = filter_->radius(), at = film - 0.5f;
   // Clamped as floats: far outside of the image they are no integers.
   const Vec2 low(bounds_.min), high(bounds_.max - 1);
   const Vec2 first = glm::max(glm::ceil(at - radius), low);
@@ -66,7 +67,7 @@ void LightImage::add(const Vec2& film, const Rgb& value) {
   for (int y = begin.y; y <= end.y; ++y)
     for (int x = begin.x; x <= end.x; ++x) {
       const Vec2 offset = at - Vec2(x, y);
-      const double weight = static_cast<double>(filter_.evaluate(offset)) * filterFactor_;
+      const double weight = static_cast<double>(filter_->evaluate(offset)) * filterFactor_;
       if (weight == 0) continue;
       const Int2 local = Int2(x, y) - bounds_.min;
       const size_t pixel = static_cast<size_t>(local.y) * static_cast<size_t>(bounds_.size().x) +
@@ -88,6 +89,18 @@ std::array<double, 3> LightImage::mean(size_t pixel) const {
   std::array<double, 3> rgb{};
   for (size_t c = 0; c < 3; ++c) rgb[c] = static_cast<double>(load(sums_[3 * pixel + c])) * factor;
   return rgb;
+}
+
+bool LightImage::merge(const LightImage& other) {
+  if (!other.isOpen()) return true;
+  if (!isOpen()) {
+    allocate();
+    unit_ = other.unit_;
+  }
+  if (unit_ != other.unit_) return false;
+  for (size_t i = 0; i < sums_.size(); ++i) sums_[i] += other.sums_[i];
+  paths_ += other.paths_;
+  return true;
 }
 
 size_t LightImage::encodedSize() const {

@@ -19,8 +19,8 @@ namespace lampyris {
 /// to agree. Nothing is allocated until it is opened.
 class LightImage {
  public:
-  /// `filter` must live as long.
-  LightImage(const PixelBounds& bounds, const Filter& filter) : bounds_(bounds), filter_(filter) {}
+  /// `filter` must live as long; null: add() is not called.
+  LightImage(const PixelBounds& bounds, const Filter* filter) : bounds_(bounds), filter_(filter) {}
 
   bool isOpen() const { return unit_ > 0; }
   /// See Film::openLightImage(). Once it is open nothing changes.
@@ -31,6 +31,9 @@ class LightImage {
   void addPaths(uint64_t count) { paths_.fetch_add(count, std::memory_order_relaxed); }
   /// Of a pixel (row by row), over the paths that it has had.
   std::array<double, 3> mean(size_t pixel) const;
+
+  /// Adds another's sums and paths; false, and nothing happens, if they are in other units.
+  bool merge(const LightImage& other);
 
   /// Header, sums, checksum. encodedSize() does not depend on whether it is open.
   std::string encode() const;
@@ -43,7 +46,7 @@ class LightImage {
   void allocate();
 
   const PixelBounds bounds_;
-  const Filter& filter_;
+  const Filter* const filter_;
   double unit_ = 0;          ///< of the sums; a power of two
   double filterFactor_ = 1;  ///< 1 / ∫ filter
   std::atomic<uint64_t> paths_{0};

@@ -15,19 +15,29 @@ static_assert(std::endian::native == std::endian::little);
 
 struct Header {
   std::array<char, 8> magic{'L', 'A', 'M', 'P', 'F', 'I', 'L', 'M'};
-  uint32_t version = 2;
+  uint32_t version = 3;
   uint32_t pixelBytes = sizeof(PixelSums);
+  std::array<int32_t, 2> resolution{};
   std::array<int32_t, 4> bounds{};
   uint64_t aovs = 0;
+  double scale = 0;
 
   bool operator==(const Header&) const = default;
 };
 
-Header headerOf(const SumsKey& key) {
+Header headerOf(const FilmFrame& f) {
   Header h;
-  h.bounds = {key.bounds.min.x, key.bounds.min.y, key.bounds.max.x, key.bounds.max.y};
-  h.aovs = key.aovs.bits();
+  h.resolution = {f.resolution.x, f.resolution.y};
+  h.bounds = {f.bounds.min.x, f.bounds.min.y, f.bounds.max.x, f.bounds.max.y};
+  h.aovs = f.aovs.bits();
+  h.scale = f.scale;
   return h;
+}
+
+Header readHeader(std::string_view bytes) {
+  Header header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  return header;
 }
 
 }  // namespace
@@ -42,9 +52,9 @@ uint64_t checksum(const char* bytes, size_t size) {
   return h;
 }
 
-std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
-                       std::span<const double> aovSums) {
-  const Header header = headerOf(key);
+std::string encodeSums(const FilmFrame& frame, std::span<const PixelSums> sums,
+                       std::span<const WideSum> aovSums) {
+  const Header header = headerOf(frame);
   std::string bytes;
   bytes.reserve(sizeof header + sums.size_bytes() + aovSums.size_bytes() + sizeof(uint64_t));
   bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
@@ -56,17 +66,25 @@ std::string encodeSums(const SumsKey& key, std::span<const PixelSums> sums,
   return bytes;
 }
 
-bool decodeSums(std::string_view bytes, const SumsKey& key, std::span<PixelSums> sums,
-                std::span<double> aovSums) {
+std::optional<FilmFrame> frameOfSums(std::string_view bytes) {
+  if (bytes.size() < sizeof(Header)) return std::nullopt;
+  const Header h = readHeader(bytes);
+  const Int2 min(h.bounds[0], h.bounds[1]), max(h.bounds[2], h.bounds[3]);
+  return FilmFrame{{h.resolution[0], h.resolution[1]},
+                   {min, max},
+                   AovSet(static_cast<uint32_t>(h.aovs)),
+                   h.scale};
+}
+
+bool decodeSums(std::string_view bytes, const FilmFrame& frame, std::span<PixelSums> sums,
+                std::span<WideSum> aovSums) {
   if (bytes.size() < sizeof(Header) + sizeof(uint64_t)) return false;
   const size_t body = bytes.size() - sizeof(uint64_t);
   if (body - sizeof(Header) != sums.size_bytes() + aovSums.size_bytes()) return false;
-  Header header;
-  std::memcpy(&header, bytes.data(), sizeof header);
   uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + body, sizeof sum);
-  if (header != headerOf(key) || sum != checksum(bytes.data(), body)) return false;
-  const char* const data = bytes.data() + sizeof header;
+  if (readHeader(bytes) != headerOf(frame) || sum != checksum(bytes.data(), body)) return false;
+  const char* const data = bytes.data() + sizeof(Header);
   std::memcpy(sums.data(), data, sums.size_bytes());
   if (!aovSums.empty()) std::memcpy(aovSums.data(), data + sums.size_bytes(), aovSums.size_bytes());
   return true;

@@ -50,7 +50,7 @@ TEST(AovSums, MeansByHand) {
   sums.add(0, miss);
   sums.addColour(0, {1, 2, 4});
   sums.addColour(0, {3, 2, 0});
-  const std::vector<PixelSums> pixels{{4, 4, 4, 0, 2}, {}};
+  const std::vector<PixelSums> pixels{{{4}, {4}, {4}, 0, 2}, {}};
   auto layers = byName(sums.layers(pixels, 10));
   EXPECT_EQ(layers.size(), 16u);
   EXPECT_FLOAT_EQ(layers["albedo.G"][0], 0.1f);
@@ -78,7 +78,7 @@ TEST(AovSums, KeepsOnlyWhatIsAskedFor) {
   AovSums sums(set, 1);
   sums.add(0, hitRecord());
   sums.addColour(0, {1, 1, 1});
-  const std::vector<PixelSums> pixels{{0, 0, 0, 0, 1}};
+  const std::vector<PixelSums> pixels{{{}, {}, {}, 0, 1}};
   auto layers = byName(sums.layers(pixels, 1));
   ASSERT_EQ(layers.size(), 2u);
   EXPECT_EQ(layers["depth.Z"][0], 2);
@@ -91,7 +91,7 @@ TEST(AovSums, ValuesThatAreNoNumbersAreLeftOut) {
   r.albedo = Rgb(std::nanf(""));
   r.depth = INFINITY;
   sums.add(0, r);
-  const std::vector<PixelSums> pixels{{1e300, 0, 0, 0, 1}};
+  const std::vector<PixelSums> pixels{{{1e300}, {}, {}, 0, 1}};
   for (const ImageLayer& l : sums.layers(pixels, 1e30))
     EXPECT_TRUE(std::isfinite(l.values[0])) << l.name;
 }

@@ -32,7 +32,7 @@ TEST(LightImage, SumsDoNotDependOnTheOrder) {
   const auto gaussian = filter("gaussian");
   const PixelBounds bounds{{0, 0}, {8, 6}};
   auto all = splats(20'000);
-  LightImage one(bounds, *gaussian), other(bounds, *gaussian);
+  LightImage one(bounds, gaussian.get()), other(bounds, gaussian.get());
   one.open(1);
   other.open(1);
   for (const Splat& s : all) one.add(s.at, s.value);
@@ -48,7 +48,7 @@ TEST(LightImage, MeansAreThoseOfTheSplats) {
   const auto box = filter("box");
   const PixelBounds bounds{{2, 1}, {6, 5}};
   for (const float scale : {1e-20f, 1.f, 1e20f}) {
-    LightImage image(bounds, *box);
+    LightImage image(bounds, box.get());
     image.open(static_cast<double>(scale));
     std::vector<double> expected(16);
     for (const Splat& s : splats(5000, scale)) {
@@ -67,7 +67,7 @@ TEST(LightImage, MeansAreThoseOfTheSplats) {
 TEST(LightImage, FiltersKeepTheSum) {
   for (const char* name : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
     const auto f = filter(name);
-    LightImage image({{0, 0}, {16, 16}}, *f);
+    LightImage image({{0, 0}, {16, 16}}, f.get());
     image.open(1);
     double sum = 0;
     for (uint64_t i = 0; i < 400; ++i)
@@ -80,7 +80,7 @@ TEST(LightImage, FiltersKeepTheSum) {
 
 TEST(LightImage, TakesAnyPlaceAndValue) {
   const auto gaussian = filter("gaussian");
-  LightImage image({{0, 0}, {4, 4}}, *gaussian);
+  LightImage image({{0, 0}, {4, 4}}, gaussian.get());
   image.open(1e-12);
   for (const float x : {-1e30f, 1e30f, -1e9f, 1e9f, 2.f}) image.add({x, x}, Rgb(1e30f));
   image.addPaths(16);
@@ -90,7 +90,7 @@ TEST(LightImage, TakesAnyPlaceAndValue) {
 TEST(LightImage, IsRestored) {
   const auto box = filter("box");
   const PixelBounds bounds{{0, 0}, {8, 6}};
-  LightImage image(bounds, *box), again(bounds, *box);
+  LightImage image(bounds, box.get()), again(bounds, box.get());
   image.open(3);
   for (const Splat& s : splats(100)) image.add(s.at, s.value);
   image.addPaths(7);
