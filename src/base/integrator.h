@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/camera.h"
@@ -44,8 +45,9 @@ struct RenderStop {
 
 /// A render ends at whichever of its limits comes first.
 struct RenderOptions {
-  uint64_t firstSample = 0;  ///< index to start at (after --resume)
-  std::string learned;       ///< LearnedState::save() at that sample
+  uint64_t firstIndex = 0;   ///< of the samples: a part of a larger render begins later than at 0
+  uint64_t firstSample = 0;  ///< the number of samples that all pixels have (after --resume)
+  std::string learned;       ///< LearnedState::save() after these
   /// A pixel, the resumed ones included; 0: the sampler's number, or without limit where a time or
   /// a noise is given.
   uint64_t sampleCount = 0;
@@ -81,6 +83,9 @@ class Integrator {
   virtual bool rendersMedia() const { return false; }
   /// False if a checkpoint holds too little for a render to go on from: the integrator has chains.
   virtual bool resumes() const { return true; }
+  /// Not empty: why the merged parts of a render are not the bits of the one render, though as
+  /// unbiased.
+  virtual std::string_view partsDiffer() const { return {}; }
   /// False if the light image is all there is. Then nothing is known of a pixel alone: no samples
   /// to replay, no noise, no AOVs.
   virtual bool samplesPixels() const { return true; }

@@ -64,6 +64,9 @@ class GuidedPathIntegrator final : public Integrator {
     return samples;
   }
   bool rendersMedia() const override { return true; }
+  std::string_view partsDiffer() const override {
+    return "each part learns from its own samples alone";
+  }
 
  private:
   const GuidedPathParameters parameters_;

@@ -38,6 +38,9 @@ class MltIntegrator final : public Integrator {
   }
   bool rendersMedia() const override { return true; }
   bool resumes() const override { return false; }
+  std::string_view partsDiffer() const override {
+    return "each part has chains of its own, from the same bootstrap paths";
+  }
   bool samplesPixels() const override { return false; }
 
  private:

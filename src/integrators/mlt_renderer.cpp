@@ -105,7 +105,7 @@ void MltRenderer::bootstrap() {
   const double shift = std::ldexp(static_cast<double>(hash(settings_.seed, kStart, 0) >> 11), -53);
   chains_.reserve(settings_.chains);
   for (size_t c = 0; c < settings_.chains; ++c) {
-    const double at = shift + static_cast<double>(c) * kGoldenSection;
+    const double at = shift + static_cast<double>(chainNumber(c)) * kGoldenSection;
     const double u = std::min((at - std::floor(at)) * sum, std::nextafter(sum, 0.));
     const auto start = std::upper_bound(sums.begin(), sums.end(), u);
     startChain(static_cast<size_t>(start - sums.begin()));
@@ -137,7 +137,7 @@ PassLoop::Pass MltRenderer::renderPass(uint64_t samples) {
 /// Until the chain has had `end` mutations.
 void MltRenderer::advance(size_t number, uint64_t end) {
   Chain& chain = chains_[number];
-  const uint64_t seed = hash(settings_.seed, kChain, number);
+  const uint64_t seed = hash(settings_.seed, kChain, chainNumber(number));
   while (chain.mutations < end && !cutShort()) {
     Work work;
     const uint64_t count = std::min(end - chain.mutations, kMutationsAtATime);

@@ -53,6 +53,10 @@ class MltRenderer final : public PassLoop {
 
   Pass renderPass(uint64_t samples) override;
   Samples samples() const override;
+  /// Those of a render's parts are numbered through.
+  uint64_t chainNumber(size_t chain) const {
+    return options_.firstIndex * settings_.chains + chain;
+  }
   void bootstrap();
   std::vector<double> bootstrapBrightness();
   void startChain(size_t start);

@@ -98,14 +98,15 @@ int64_t strideFor(int64_t count) {
 }
 
 PassLoop::Pass PassRenderer::renderPass(uint64_t wanted) {
-  const uint64_t samples = estimator_.beginPass(done_, wanted);
+  const uint64_t samples = estimator_.beginPass(options_.firstIndex + done_, wanted);
   const int64_t tiles = tilesAcross() * tilesDown();
   // A pass that may be cut short takes the tiles of the whole image evenly.
   const int64_t stride = hasDeadline() ? strideFor(tiles) : 1;
-  const uint64_t end = done_ + samples;
+  const uint64_t end = options_.firstIndex + done_ + samples;
   const uint64_t pathsBefore = paths_;
   wholeTiles_ = 0;
-  if (observer_) observer_->beginPass({samples, static_cast<size_t>(tiles), end == target_});
+  if (observer_)
+    observer_->beginPass({samples, static_cast<size_t>(tiles), done_ + samples == target_});
   parallelFor(static_cast<size_t>(tiles), 1, [&](size_t first, size_t last) {
     for (size_t t = first; t < last && !cutShort(); ++t)
       renderTile(static_cast<int64_t>(t) * stride % tiles, end);
@@ -128,7 +129,7 @@ void PassRenderer::renderTile(int64_t tile, uint64_t end) {
   bool whole = true;
   for (int y = area.min.y; y < area.max.y && whole; ++y) {
     for (int x = area.min.x; x < area.max.x; ++x) {
-      const SampleAddress first{{x, y}, context_.film.sampleCount({x, y})};
+      const SampleAddress first{{x, y}, options_.firstIndex + context_.film.sampleCount({x, y})};
       if (first.index >= end) continue;
       whole = !cutShort();
       if (!whole) break;

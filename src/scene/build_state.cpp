@@ -17,7 +17,12 @@ BuildState::BuildState(const Description& description, const BuildOptions& optio
       diagnostics(diagnostics),
       statistics(statistics),
       job(job),
-      resolvePath([folder](const std::string& name) { return resolveScenePath(folder, name); }),
+      resolvePath([this, folder](const std::string& name) {
+        std::string path = resolveScenePath(folder, name);
+        const std::lock_guard lock(filesMutex_);
+        this->job.files.insert(path);
+        return path;
+      }),
       overrides(options.overrides),
       spectra(folder, files) {}
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct BuildState {
   const Transform& transform(uint32_t index, SourceLocation where) const;
   bool isAnimated(uint32_t index) const { return description.transforms[index].isAnimated(); }
   AnimatedTransform motion(uint32_t index) const;
+
+ private:
+  std::mutex filesMutex_;
 };
 
 /// body(i) for i in [0, count) in parallel. Of several exceptions the one of the lowest i is

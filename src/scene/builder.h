@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct RenderJob {
   std::unique_ptr<Sampler> sampler;
   std::unique_ptr<Film> film;
   std::unique_ptr<Integrator> integrator;
+  std::set<std::string> files;  ///< that the scene names, but for scene files and spectra
 };
 
 /// What the command line changes of a scene.

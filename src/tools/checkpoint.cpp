@@ -14,16 +14,23 @@ namespace lampyris {
 
 namespace {
 
-constexpr std::string_view kMagic = "lampyris checkpoint 2\n";
+constexpr std::string_view kMagic = "lampyris checkpoint 3\n";
 
 struct Header {
-  uint64_t fingerprint, nextSample, filmSize, filmHash, learnedSize, learnedHash;
+  uint64_t fingerprint, seed, whole;
+  SampleRange range;
+  uint64_t samples, filmSize, filmHash, learnedSize, learnedHash;
+  uint64_t hash;  ///< of all before
 };
 
 uint64_t hashOf(std::string_view bytes) {
   Fingerprint f;
   f.add(bytes);
   return f.value();
+}
+
+uint64_t hashOf(const Header& header) {
+  return hashOf({reinterpret_cast<const char*>(&header), offsetof(Header, hash)});
 }
 
 }  // namespace
@@ -42,8 +49,9 @@ void Fingerprint::add(std::string_view bytes) {
 }
 
 void writeCheckpoint(const std::string& path, const Checkpoint& c) {
-  const Header header{c.fingerprint,  c.nextSample,     c.film.size(),
-                      hashOf(c.film), c.learned.size(), hashOf(c.learned)};
+  Header header{c.fingerprint, c.seed,         c.whole,          c.range,           c.samples,
+                c.film.size(), hashOf(c.film), c.learned.size(), hashOf(c.learned), 0};
+  header.hash = hashOf(header);
   AtomicFile file(path);
   file.write(kMagic.data(), kMagic.size());
   file.write(&header, sizeof header);
@@ -55,18 +63,20 @@ void writeCheckpoint(const std::string& path, const Checkpoint& c) {
 Checkpoint readCheckpoint(const std::string& path) {
   const MappedFile file(path);
   std::string_view text = file.text();
-  Header header{};
-  if (!text.starts_with(kMagic) || text.size() < kMagic.size() + sizeof header)
-    throw IoError(fmt::format("\"{}\" is no checkpoint that this version can read", path));
+  if (!text.starts_with(kMagic))
+    throw IoError(fmt::format("\"{}\" is no checkpoint or partial file of this version", path));
   text.remove_prefix(kMagic.size());
-  std::memcpy(&header, text.data(), sizeof header);
-  text.remove_prefix(sizeof header);
+  Header header{};
+  std::memcpy(&header, text.data(), std::min(text.size(), sizeof header));
+  text.remove_prefix(std::min(text.size(), sizeof header));
   const std::string_view film = text.substr(0, header.filmSize);
   const std::string_view learned = text.substr(film.size());
-  if (film.size() != header.filmSize || learned.size() != header.learnedSize ||
-      hashOf(film) != header.filmHash || hashOf(learned) != header.learnedHash)
-    throw IoError(fmt::format("checkpoint \"{}\" is damaged", path));
-  return {header.fingerprint, header.nextSample, std::string(film), std::string(learned)};
+  if (header.hash != hashOf(header) || film.size() != header.filmSize ||
+      learned.size() != header.learnedSize || hashOf(film) != header.filmHash ||
+      hashOf(learned) != header.learnedHash)
+    throw IoError(fmt::format("\"{}\" is damaged", path));
+  return {header.fingerprint, header.seed,       header.whole,        header.range,
+          header.samples,     std::string(film), std::string(learned)};
 }
 
 }  // namespace lampyris

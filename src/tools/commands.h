@@ -15,6 +15,7 @@ int runCompare(const Arguments& arguments);
 int runConvert(const Arguments& arguments);
 int runInfo(const Arguments& arguments);
 int runMakeSky(const Arguments& arguments);
+int runMerge(const Arguments& arguments);
 int runLights(const Arguments& arguments);
 int runHelpScene(const Arguments& arguments);
 

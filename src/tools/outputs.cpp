@@ -22,25 +22,8 @@ namespace {
 
 constexpr double kLargestShare = 0.02;  ///< of the time, for partial images
 
-void checkWritable(const std::string& path, bool fromScene) {
-  if (!isWritableImagePath(path)) {
-    const std::string message = fmt::format(
-        "cannot tell the format of the image \"{}\": expected an ending like .exr, .png or .pfm",
-        path);
-    if (fromScene) throw SceneError(message);
-    throw UsageError(message);
-  }
-  const fs::path folder = fs::absolute(path).parent_path();
-  std::error_code error;
-  if (!fs::is_directory(folder, error))
-    throw IoError(fmt::format("cannot write \"{}\": the folder \"{}\" does not exist", path,
-                              folder.string()));
-  // Whether a file can be made is best told by making one.
-  const AtomicFile probe(path);
-}
-
 /// Saves elsewhere what `path` did not take; says where.
-std::string rescue(const std::string& path, const Film& film, const ImageMetadata& metadata) {
+std::string rescue(const std::string& path, const std::function<void(const std::string&)>& save) {
   const fs::path name(path);
   std::error_code error;
   for (const fs::path& folder :
@@ -49,7 +32,7 @@ std::string rescue(const std::string& path, const Film& film, const ImageMetadat
     const std::string elsewhere = folder / fmt::format("{}-rescued-{}{}", name.stem().string(),
                                                        getpid(), name.extension().string());
     try {
-      film.write(elsewhere, metadata);
+      save(elsewhere);
       return fmt::format("the image was saved as \"{}\"", elsewhere);
     } catch (const IoError&) {
       continue;
@@ -60,6 +43,43 @@ std::string rescue(const std::string& path, const Film& film, const ImageMetadat
 
 }  // namespace
 
+ImageMetadata imageMetadata(double samples, uint64_t seed) {
+  return {{"software", "Lampyris"},
+          {"samplesPerPixel", fmt::format("{:.10g}", samples)},
+          {"seed", std::to_string(seed)}};
+}
+
+void checkWritable(const std::string& path) {
+  const fs::path folder = fs::absolute(path).parent_path();
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw IoError(fmt::format("cannot write \"{}\": the folder \"{}\" does not exist", path,
+                              folder.string()));
+  // Whether a file can be made is best told by making one.
+  const AtomicFile probe(path);
+}
+
+void checkWritableImage(const std::string& path) {
+  if (!isWritableImagePath(path))
+    throw UsageError(fmt::format(
+        "cannot tell the format of the image \"{}\": expected an ending like .exr, .png or .pfm",
+        path));
+  checkWritable(path);
+}
+
+void writeOrRescue(const std::vector<std::string>& paths,
+                   const std::function<void(const std::string&)>& save) {
+  std::vector<std::string> failures;
+  for (const std::string& p : paths) {
+    try {
+      save(p);
+    } catch (const IoError& e) {
+      failures.push_back(fmt::format("{}; {}", e.what(), rescue(p, save)));
+    }
+  }
+  if (!failures.empty()) throw IoError(fmt::format("{}", fmt::join(failures, "\n")));
+}
+
 Outputs::Outputs(const std::vector<std::string>& requested, const Film& film) : paths_(requested) {
   if (paths_.empty()) {
     const fs::path own = film.filename();
@@ -67,7 +87,7 @@ Outputs::Outputs(const std::vector<std::string>& requested, const Film& film) : 
     if (own.extension() == ".exr")
       paths_.push_back(fs::path(own).replace_extension(".png").string());
   }
-  for (const std::string& p : paths_) checkWritable(p, requested.empty());
+  for (const std::string& p : paths_) checkWritableImage(p);
 }
 
 bool Outputs::takesLayers() const {
@@ -76,15 +96,7 @@ bool Outputs::takesLayers() const {
 }
 
 void Outputs::write(const Film& film, const ImageMetadata& metadata) const {
-  std::vector<std::string> failures;
-  for (const std::string& p : paths_) {
-    try {
-      film.write(p, metadata);
-    } catch (const IoError& e) {
-      failures.push_back(fmt::format("{}; {}", e.what(), rescue(p, film, metadata)));
-    }
-  }
-  if (!failures.empty()) throw IoError(fmt::format("{}", fmt::join(failures, "\n")));
+  writeOrRescue(paths_, [&](const std::string& path) { film.write(path, metadata); });
 }
 
 void Outputs::writePartial(const Film& film, const ImageMetadata& metadata, double seconds) {

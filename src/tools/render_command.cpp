@@ -7,10 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/atomic_file.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "tools/checkpoint.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/messages.h"
@@ -20,6 +18,7 @@
 #include "tools/progress.h"
 #include "tools/render_settings.h"
 #include "tools/run_report.h"
+#include "tools/saved_state.h"
 
 namespace lampyris {
 
@@ -59,13 +58,12 @@ class RenderSession {
   std::unique_ptr<RenderJob> load(const BuildOptions& options);
   void loadJob();
   void checkIntegrator() const;
-  void resume();
-  uint64_t fingerprint() const;
   RenderOptions renderOptions();
+  Outputs openOutputs();
   void renderImage(const Outputs& outputs);
   void renderPixel();
   void passDone(const RenderProgress& progress);
-  void saveCheckpoint(uint64_t nextSample, const LearnedState* learned);
+  void saveCheckpoint(uint64_t samples, const LearnedState* learned);
   void attempt(const std::function<void()>& save);
   uint64_t render(Film& film, const RenderOptions& options);
   ImageMetadata metadata(double samples) const;
@@ -79,11 +77,10 @@ class RenderSession {
   Statistics statistics_;
   Diagnostics diagnostics_;
   std::unique_ptr<RenderJob> job_;
+  std::string part_;                         ///< the partial file to write; empty: images
   std::optional<InterruptGuard> interrupt_;  ///< once the scene is loaded
   RunReport report_;
-  uint64_t firstSample_ = 0;
-  std::string learned_;  ///< until then
-  uint64_t fingerprint_ = 0;
+  std::optional<SavedState> saved_;  ///< where the state is read or written
   double lastCheckpoint_ = 0;
 };
 
@@ -106,35 +103,14 @@ void RenderSession::loadJob() {
   job_ = load(options);
 }
 
-/// Of all that decides a sample's value; not of the number of samples, which may be raised.
-uint64_t RenderSession::fingerprint() const {
-  Fingerprint f;
-  for (size_t i = 0; i < files_.count(); ++i) f.add(files_.text(static_cast<uint16_t>(i)));
-  for (const auto& [name, value] : settings_.build.overrides) f.add(name), f.add(value);
-  f.add(settings_.build.seed);
-  f.add(settings_.quick ? 1 : 0);
-  for (const float c : settings_.build.cropWindow) f.add(std::bit_cast<uint32_t>(c));
-  return f.value();
-}
-
-void RenderSession::resume() {
-  const Checkpoint c = readCheckpoint(settings_.resume);
-  if (c.fingerprint != fingerprint_)
-    throw IoError(
-        fmt::format("checkpoint \"{}\" is of another scene or of other options (-D, --seed, "
-                    "--crop, --quick); use those of the interrupted run",
-                    settings_.resume));
-  if (!job_->film->restore(c.film))
-    throw IoError(fmt::format("checkpoint \"{}\" is of another film", settings_.resume));
-  firstSample_ = c.nextSample;
-  learned_ = c.learned;
-}
-
 RenderOptions RenderSession::renderOptions() {
   RenderOptions o;
-  o.firstSample = firstSample_;
-  o.learned = learned_;
   o.sampleCount = static_cast<uint64_t>(settings_.build.samplesPerPixel);
+  if (settings_.samples) {
+    o.firstIndex = settings_.samples->begin;
+    o.sampleCount = settings_.samples->size();
+  }
+  if (!settings_.resume.empty()) saved_->resume(o);
   o.seconds = settings_.seconds;
   o.noise = settings_.noise;
   for (const Snapshot& s : settings_.snapshots) o.stops.push_back(s.stop);
@@ -143,16 +119,11 @@ RenderOptions RenderSession::renderOptions() {
 }
 
 ImageMetadata RenderSession::metadata(double samples) const {
-  // Nothing that differs between two runs of the same render: images are compared bit for bit.
-  return {{"software", "Lampyris"},
-          {"samplesPerPixel", fmt::format("{:.10g}", samples)},
-          {"seed", std::to_string(settings_.build.seed)}};
+  return imageMetadata(samples, settings_.build.seed);
 }
 
-void RenderSession::saveCheckpoint(uint64_t nextSample, const LearnedState* learned) {
-  if (settings_.checkpoint.empty()) return;
-  writeCheckpoint(settings_.checkpoint, {fingerprint_, nextSample, job_->film->save(),
-                                         learned ? learned->save() : std::string()});
+void RenderSession::saveCheckpoint(uint64_t samples, const LearnedState* learned) {
+  if (!settings_.checkpoint.empty()) saved_->write(settings_.checkpoint, samples, learned);
 }
 
 /// What cannot be written while the render goes on is left for the next time.
@@ -218,8 +189,27 @@ void RenderSession::renderImage(const Outputs& initial) {
   warnOfMissedSnapshots();
   // The image first: it can be had without the checkpoint, but not the other way round.
   outputs.write(*job_->film, metadata(statistics_.value("render", "samples per pixel")));
+  if (!part_.empty())
+    writeOrRescue({part_}, [&](const std::string& path) { saved_->write(path, samples, nullptr); });
   if (!learns) saveCheckpoint(samples, nullptr);
   report_.noise = job_->film->noise();
+}
+
+/// A part of an image is no image, but a file of its own.
+Outputs RenderSession::openOutputs() {
+  if (!settings_.samples) return Outputs(settings_.outputs, *job_->film);
+  const auto [begin, end] = *settings_.samples;
+  part_ = settings_.outputs.empty()
+              ? std::filesystem::path(job_->film->filename())
+                    .replace_extension(fmt::format("{}-{}{}", begin, end, kPartEnding))
+                    .string()
+              : settings_.outputs.front();
+  checkWritable(part_);
+  const std::string_view why = job_->integrator->partsDiffer();
+  if (!why.empty() && !settings_.quiet)
+    say("{}: note: {}: the merged image is unbiased, but not bit for bit that of one render\n",
+        scene_, why);
+  return Outputs();
 }
 
 void RenderSession::renderPixel() {
@@ -261,18 +251,19 @@ int RenderSession::run() {
     if (settings_.pixel) {
       renderPixel();
     } else {
-      const Outputs outputs(settings_.outputs, *job_->film);
-      if (!job_->film->aovs().empty() && !outputs.takesLayers() && settings_.snapshots.empty())
+      const Outputs outputs = openOutputs();
+      if (!job_->film->aovs().empty() && part_.empty() && !outputs.takesLayers() &&
+          settings_.snapshots.empty())
         diagnostics_.warn({},
                           "layers are asked for, but only EXR files can hold them: "
                           "add --out FILE.exr");
-      if (!settings_.checkpoint.empty()) {
-        const AtomicFile probe(settings_.checkpoint);  // fails now, not hours later
-        fingerprint_ = fingerprint();
-      }
-      if (!settings_.resume.empty()) resume();
+      if (settings_.samples || !settings_.checkpoint.empty())
+        saved_.emplace(settings_, *job_, files_);
+      if (!settings_.checkpoint.empty()) checkWritable(settings_.checkpoint);
       renderImage(outputs);
-      if (!settings_.quiet) say("{}: {}\n", scene_, fmt::join(outputs.paths(), ", "));
+      if (!settings_.quiet)
+        say("{}: {}\n", scene_,
+            part_.empty() ? fmt::to_string(fmt::join(outputs.paths(), ", ")) : part_);
     }
     report_.warnings = diagnostics_.warnings();
     if (!settings_.quiet) say("{}", summary(report_, statistics_, settings_.verbose));

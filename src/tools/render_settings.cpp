@@ -19,6 +19,7 @@ Subcommands (each with --help):
   compare A B        how far an image is from a reference
   convert A B        an image in another format, scaled, flipped or tone-mapped
   info FILE          what an image file holds
+  merge FILE...      the image of partial files, which --samples makes
   lights SCENE       what a scene's light tree looks like
   help-scene [KIND [NAME]]
                      what scene files may say
@@ -35,6 +36,19 @@ Int2 parsePixel(const std::string& text) {
     if (y.ec == std::errc() && y.ptr == end) return p;
   }
   throw UsageError(fmt::format("--pixel: expected x,y, got \"{}\"", text));
+}
+
+/// "a:b", 0 ≤ a < b.
+SampleRange parseSamples(const std::string& text) {
+  SampleRange r;
+  const char* const end = text.data() + text.size();
+  const auto a = std::from_chars(text.data(), end, r.begin);
+  if (a.ec == std::errc() && a.ptr != end && *a.ptr == ':') {
+    const auto b = std::from_chars(a.ptr + 1, end, r.end);
+    if (b.ec == std::errc() && b.ptr == end && r.begin < r.end) return r;
+  }
+  throw UsageError(fmt::format(
+      "--samples: expected a range like 0:16 (first, one behind the last), got \"{}\"", text));
 }
 
 std::pair<std::string, std::string> parseDefine(const std::string& text) {
@@ -74,12 +88,13 @@ Arguments splitCrop(const Arguments& arguments) {
 void check(const RenderSettings& s) {
   if (s.scenes.empty()) throw UsageError("expected a scene file (or - for standard input)");
   const bool single = s.pixel || !s.resume.empty() || !s.checkpoint.empty() ||
-                      !s.statistics.empty() || !s.outputs.empty();
+                      !s.statistics.empty() || !s.outputs.empty() || s.samples;
   // What CLI11 lets through: a NaN is not out of any range.
   if (std::isnan(s.seconds) || std::isnan(s.noise))
     throw UsageError("--seconds and --noise: expected a number above 0");
   if (s.scenes.size() > 1 && single)
-    throw UsageError("--out, --pixel, --stats, --checkpoint and --resume need a single scene file");
+    throw UsageError(
+        "--out, --pixel, --samples, --stats, --checkpoint and --resume need a single scene file");
   if (s.print && (s.scenes.size() > 1 || single))
     throw UsageError(
         "--cat and --toply print a single scene file, and render nothing: no --out, --pixel, "
@@ -88,6 +103,15 @@ void check(const RenderSettings& s) {
     throw UsageError("--pixel renders no image that could be resumed");
   if (s.pixel && !s.snapshots.empty())
     throw UsageError("--pixel renders no image that snapshots could be taken of");
+  if (s.samples && (s.pixel || s.print || s.seconds > 0 || s.noise > 0 || !s.snapshots.empty()))
+    throw UsageError(
+        "--samples renders a part of an image: no --seconds, --noise, --snapshots, --pixel, --cat "
+        "or --toply goes with it");
+  const auto isPart = [](const std::string& path) { return path.ends_with(kPartEnding); };
+  if (s.samples && (s.outputs.size() > 1 || (s.outputs.size() == 1 && !isPart(s.outputs[0]))))
+    throw UsageError(
+        fmt::format("--samples writes one partial file: expected --out NAME{}, got \"{}\"",
+                    kPartEnding, s.outputs.back()));
   for (const Snapshot& snapshot : s.snapshots) {
     const bool late = s.seconds > 0 && snapshot.stop.seconds > s.seconds;
     const auto spp = static_cast<uint64_t>(s.build.samplesPerPixel);
@@ -104,7 +128,7 @@ void check(const RenderSettings& s) {
 
 std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   RenderSettings s;
-  std::string pixel, snapshots, aovs;
+  std::string pixel, snapshots, samples, aovs;
   std::vector<std::string> defines;
   bool cat = false, toPly = false;
   CLI::App app("Lampyris renders pbrt-v3 scene files.", "lampyris");
@@ -121,6 +145,9 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
       ->check(CLI::PositiveNumber);
   app.add_option("--snapshots", snapshots,
                  "Write OUT-NAME.exr on the way, at times and sample counts: 0.5s,1s or 1spp,4spp");
+  app.add_option("--samples", samples,
+                 "Render only samples a to b - 1 of the --spp of each pixel, into a partial file "
+                 "NAME.part for lampyris merge: a:b");
   app.add_option("--aov", aovs,
                  fmt::format("Layers to write into EXR files, with commas between: {}",
                              fmt::join(kAovNames, ", ")));
@@ -161,6 +188,7 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   if (!pixel.empty()) s.pixel = parsePixel(pixel);
   for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));
   if (!snapshots.empty()) s.snapshots = parseSnapshots(snapshots);
+  if (!samples.empty()) s.samples = parseSamples(samples);
   if (!aovs.empty()) s.build.overrides.emplace_back("film.aovs", aovs);
   if (cat || toPly) s.print = PrintOptions{toPly};
   check(s);

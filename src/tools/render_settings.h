@@ -10,9 +10,13 @@
 #include "scene/builder.h"
 #include "scene/scene_printer.h"
 #include "tools/arguments.h"
+#include "tools/checkpoint.h"
 #include "tools/snapshots.h"
 
 namespace lampyris {
+
+/// Of the names of partial files.
+inline constexpr std::string_view kPartEnding = ".part";
 
 struct RenderSettings {
   std::vector<std::string> scenes;  ///< "-": standard input
@@ -21,7 +25,8 @@ struct RenderSettings {
   double seconds = 0;  ///< > 0: render for this long
   double noise = 0;    ///< > 0: render until the estimated relative error is no more than this
   std::vector<Snapshot> snapshots;
-  int threads = 0;  ///< 0: all
+  std::optional<SampleRange> samples;  ///< to render these alone, into a partial file
+  int threads = 0;                     ///< 0: all
   std::optional<Int2> pixel;
   std::optional<PrintOptions> print;  ///< the scene, in place of rendering it
   std::string resume, checkpoint, statistics;

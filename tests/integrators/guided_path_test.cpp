@@ -159,6 +159,26 @@ TEST(GuidedPath, SceneOfOnePointAndEmptyScenes) {
   }
 }
 
+/// Each part of a render learns from its own samples, beginning with none.
+TEST(GuidedPath, PartsThatLearnApartHaveTheMeanOfVolpath) {
+  constexpr uint64_t kParts = 4, kEach = 16;
+  auto difference = render(R"("volpath")", kRoom, 77, kParts * kEach);
+  const std::string text = tinyScene(view(R"("guidedpath")"), kRoom);
+  for (double& d : difference) d = -d;
+  for (uint64_t part = 0; part < kParts; ++part) {
+    TinyScene scene(text);
+    RenderOptions options;
+    options.firstIndex = part * kEach;
+    options.sampleCount = kEach;
+    EXPECT_EQ(scene.render(options), kEach);
+    EXPECT_EQ(scene.statistics().value("guide", "passes"), 5);  // of 1, 1, 2, 4 and 8 samples
+    EXPECT_GT(scene.statistics().value("guide", "share of directions with a guide"), 0.1);
+    const auto greens = scene.greens();
+    for (size_t i = 0; i < greens.size(); ++i) difference[i] += greens[i] / kParts;
+  }
+  EXPECT_EQ(meanTest(difference, 0), "");
+}
+
 TEST(GuidedPath, GoesOnFromWhatItHasLearned) {
   const std::string text = tinyScene(view(R"("guidedpath")", 24), kMist + kRoom);
   TinyScene whole(text), resumed(text);

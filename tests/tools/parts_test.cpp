@@ -36,10 +36,14 @@ TEST(Fingerprint, EveryByteAndEveryBoundaryCounts) {
 TEST(Checkpoint, SurvivesTheFile) {
   const std::string path =
       (std::filesystem::temp_directory_path() / "lampyris-checkpoint-test").string();
-  writeCheckpoint(path, {7, 12, std::string("film\0bytes", 10), "what was learned"});
+  writeCheckpoint(path,
+                  {7, 3, 20, {4, 16}, 12, std::string("film\0bytes", 10), "what was learned"});
   const Checkpoint c = readCheckpoint(path);
   EXPECT_EQ(c.fingerprint, 7u);
-  EXPECT_EQ(c.nextSample, 12u);
+  EXPECT_EQ(c.seed, 3u);
+  EXPECT_EQ(c.whole, 20u);
+  EXPECT_EQ(c.range, (SampleRange{4, 16}));
+  EXPECT_EQ(c.samples, 12u);
   EXPECT_EQ(c.film, std::string("film\0bytes", 10));
   std::filesystem::remove(path);
   EXPECT_THROW(readCheckpoint(path), IoError);
