@@ -9,9 +9,11 @@
 namespace lampyris {
 
 /// Writes to a temporary file in the folder of `path`, which takes the name in commit(). Without a
-/// commit the temporary file is removed and an older file of that name stays as it was. All
-/// functions throw IoError with the system's reason; after a failure commit() throws too, so that a
-/// writer that swallowed the exception cannot publish a damaged file.
+/// commit the temporary file is removed and an older file of that name stays as it was. What a
+/// process that was killed has left of it is taken over by the next writer of the same file;
+/// writers at the same time have a temporary file each, and the last commit() counts. All functions
+/// throw IoError with the system's reason; after a failure commit() throws too, so that a writer
+/// that swallowed the exception cannot publish a damaged file.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);

@@ -91,8 +91,11 @@ def main():
         whole = render.finish("whole.pfm")
         seconds = time.monotonic() - start
         images = list(kill_and_resume(render, arguments.kills, seconds, rng))
+        left = sorted(p.name for p in render.folder.glob("*.tmp"))
     if any(image != whole for image in images):
         sys.exit(f"an image differs from that of a run without kills (--seed {arguments.seed})")
+    if left:
+        sys.exit(f"temporary files are left: {', '.join(left)} (--seed {arguments.seed})")
     print(f"{arguments.kills} kills, {len(images)} images, same bits (seed {arguments.seed})")
 
 
