@@ -8,41 +8,40 @@
 #include <climits>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 #include "core/atomic_file.h"
 #include "core/image_formats.h"
+#include "core/image_stb_memory.h"
 
 namespace lampyris {
 
 namespace {
 
-/// stb reads on past the end of a truncated file as if zeros followed, and takes zeros in an HDR
-/// file for runs of length 0 without end. So other bytes are made up there (a run of one), and the
-/// overrun is kept in mind. Its reads tell where the end was needed: it refills its buffer of
-/// `kStbBuffer` bytes, where fewer are normal but none are not; all other reads want exactly what
-/// they ask for.
+/// stb reads on past the end of a truncated file as if zeros followed, up to the last pixel of
+/// whatever size the header claims. Here that is an exception, which leaves stb: StbMemory frees
+/// what it holds. Its reads tell where the end was needed: it refills its buffer of `kStbBuffer`
+/// bytes, where fewer are normal but none are not; all other reads want exactly what they ask for.
 struct StbSource {
-  static constexpr int kStbBuffer = 128, kPadding = 0x81;
+  static constexpr int kStbBuffer = 128;
+  const std::string& path;
   std::string_view bytes;
   size_t at = 0;
-  bool overrun = false;
+
+  [[noreturn]] void failTruncated() const { failImageRead(path, "the file is truncated"); }
 
   static int read(void* user, char* data, int size) {
     auto& s = *static_cast<StbSource*>(user);
     const int n = static_cast<int>(std::min(s.bytes.size() - s.at, static_cast<size_t>(size)));
+    if (n != size && (n == 0 || size != kStbBuffer)) s.failTruncated();
     std::memcpy(data, s.bytes.data() + s.at, static_cast<size_t>(n));
     s.at += static_cast<size_t>(n);
-    if (n == size || (n > 0 && size == kStbBuffer)) return n;
-    s.overrun = true;
-    std::memset(data + n, kPadding, static_cast<size_t>(size - n));
-    return size;
+    return n;
   }
   static void skip(void* user, int n) {
     auto& s = *static_cast<StbSource*>(user);
     const int64_t to = static_cast<int64_t>(s.at) + n;
-    if (to > static_cast<int64_t>(s.bytes.size())) s.overrun = true;
-    s.at = static_cast<size_t>(std::clamp<int64_t>(to, 0, static_cast<int64_t>(s.bytes.size())));
+    if (to > static_cast<int64_t>(s.bytes.size())) s.failTruncated();
+    s.at = static_cast<size_t>(std::max<int64_t>(to, 0));
   }
   static int atEnd(void* user) {
     const auto& s = *static_cast<StbSource*>(user);
@@ -77,12 +76,9 @@ class JpgTableCheck {
 
  private:
   static constexpr int kHuffmanTables = 0xc4, kFirstRestart = 0xd0, kStart = 0xd8, kEnd = 0xd9,
-                       kJfif = 0xe0;
+                       kJfif = 0xe0, kPastEnd = 0x81;
 
-  /// Past the end what stb is given there.
-  int byte() {
-    return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : StbSource::kPadding;
-  }
+  int byte() { return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : kPastEnd; }
   int word() {
     const int high = byte();
     return high << 8 | byte();
@@ -119,19 +115,27 @@ Image toImage(const Value* values, int width, int height, int channels, float un
   return image;
 }
 
-template <class Value>
-using StbPixels = std::unique_ptr<Value, decltype(&stbi_image_free)>;
-
-/// Loads with `load` (one of stb's functions) and checks.
+/// Loads with `loader` (one of stb's functions) and checks.
 template <class Load>
-Image load(const std::string& path, std::string_view bytes, Load&& loader, float unit) {
-  StbSource source{bytes};
+Image load(const std::string& path, std::string_view bytes, const StbMemory& memory, Load&& loader,
+           float unit) {
+  StbSource source{path, bytes};
   int width = 0, height = 0, channels = 0;
-  using Value = std::remove_pointer_t<decltype(loader(&source, &width, &height, &channels))>;
-  const StbPixels<Value> pixels(loader(&source, &width, &height, &channels), &stbi_image_free);
-  if (source.overrun) failImageRead(path, "the file is truncated");
+  const auto* const pixels = loader(&source, &width, &height, &channels);
+  if (!pixels && memory.wasRefused())
+    failImageRead(path, "it is damaged: its size does not need the memory that it asks for");
   if (!pixels) failImageRead(path, stbi_failure_reason() ? stbi_failure_reason() : "damaged");
-  return toImage(pixels.get(), width, height, channels, unit);
+  return toImage(pixels, width, height, channels, unit);
+}
+
+constexpr size_t kMemoryOfHeaders = 1 << 16;
+
+/// More than stb needs for an image of this size; it rounds the sides of JPG images up to 32.
+size_t memoryFor(int width, int height, size_t fileSize) {
+  constexpr size_t kPixel = 32, kBlock = 32;
+  const size_t pixels =
+      (static_cast<size_t>(width) + kBlock) * (static_cast<size_t>(height) + kBlock);
+  return kMemoryOfHeaders + 4 * fileSize + kPixel * pixels;
 }
 
 unsigned char toByte(float v) {
@@ -167,6 +171,7 @@ void append(void* user, void* data, int size) {
 LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   if (bytes.size() > INT_MAX) failImageRead(path, "files of 2 GB and more are not supported");
   if (!JpgTableCheck(bytes).isSafe()) failImageRead(path, "a damaged JPG file");
+  StbMemory stbMemory(kMemoryOfHeaders);
   const auto* const memory = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
@@ -175,23 +180,24 @@ LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   checkImageSize(path, width, height);
   if (int64_t{width} * height > kMaxPixelsPerByte * size)
     failImageRead(path, "the file is truncated, or its size is wrong");
+  stbMemory.setLimit(memoryFor(width, height, bytes.size()));
 
   if (stbi_is_hdr_from_memory(memory, size)) {
     const auto loader = [](StbSource* s, int* w, int* h, int* c) {
       return stbi_loadf_from_callbacks(&kCallbacks, s, w, h, c, 0);
     };
-    return {load(path, bytes, loader, 1.f), false};
+    return {load(path, bytes, stbMemory, loader, 1.f), false};
   }
   if (stbi_is_16_bit_from_memory(memory, size)) {
     const auto loader = [](StbSource* s, int* w, int* h, int* c) {
       return stbi_load_16_from_callbacks(&kCallbacks, s, w, h, c, 0);
     };
-    return {load(path, bytes, loader, 65535.f), true};
+    return {load(path, bytes, stbMemory, loader, 65535.f), true};
   }
   const auto loader = [](StbSource* s, int* w, int* h, int* c) {
     return stbi_load_from_callbacks(&kCallbacks, s, w, h, c, 0);
   };
-  return {load(path, bytes, loader, 255.f), true};
+  return {load(path, bytes, stbMemory, loader, 255.f), true};
 }
 
 void writeStbImage(const std::string& path, const std::string& ending, const Image& image) {

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one place that compiles stb's code. Formats that nobody asks for are left out: each is a
 // parser of untrusted bytes.
+#include "core/image_stb_memory.h"
+
 #define STBI_NO_STDIO
+#define STBI_MALLOC(bytes) lampyris::StbMemory::allocate(bytes)
+#define STBI_REALLOC(block, bytes) lampyris::StbMemory::reallocate(block, bytes)
+#define STBI_FREE(block) lampyris::StbMemory::release(block)
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_TGA

@@ -210,6 +210,15 @@ TEST(Image, HugeAndEmptySizesAreErrors) {
   }
 }
 
+/// stb allocates what the length of a chunk claims, and inflates whatever is deflated.
+TEST(Image, PngIsRefusedMemoryThatItsSizeDoesNotNeed) {
+  const TemporaryFolder folder;
+  std::string bytes = png(2, 2, 8, 0, std::string(6, '\0'));
+  bytes.replace(bytes.find("IDAT") - 4, 4, bigEndian(0x25000000));
+  writeBytes(folder / "a.png", bytes);
+  EXPECT_NE(ioErrorOf([&] { readImageFile(folder / "a.png"); }).find("memory"), std::string::npos);
+}
+
 TEST(Image, TruncatedAndGarbledFilesAreErrors) {
   const TemporaryFolder folder;
   const Image image = gradient(33, 17, 3);
