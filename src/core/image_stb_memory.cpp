@@ -29,8 +29,9 @@ void* StbMemory::reallocate(void* old, size_t bytes) {
   if (!old) m.blocks_.push_back({nullptr, 0});
   Block& block = old ? *m.find(old) : m.blocks_.back();
   const size_t others = m.used_ - block.bytes;
-  void* const memory =
-      bytes <= m.limit_ - std::min(others, m.limit_) ? std::realloc(old, bytes) : nullptr;
+  void* memory = nullptr;
+  if (bytes <= m.limit_ - std::min(others, m.limit_))
+    memory = old ? std::realloc(old, bytes) : std::calloc(1, bytes);
   if (!memory) {
     m.refused_ = true;
     if (!old) m.blocks_.pop_back();

@@ -7,14 +7,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <thread>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/image_stb_memory.h"
 #include "core/image_test_files.h"
 
 namespace lampyris {
@@ -217,6 +220,19 @@ TEST(Image, PngIsRefusedMemoryThatItsSizeDoesNotNeed) {
   bytes.replace(bytes.find("IDAT") - 4, 4, bigEndian(0x25000000));
   writeBytes(folder / "a.png", bytes);
   EXPECT_NE(ioErrorOf([&] { readImageFile(folder / "a.png"); }).find("memory"), std::string::npos);
+}
+
+TEST(StbMemory, IsZeroAndLimited) {
+  StbMemory memory(1000);
+  void* const first = StbMemory::allocate(600);
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(StbMemory::allocate(401), nullptr);
+  EXPECT_TRUE(memory.wasRefused());
+  std::memset(first, 0xff, 600);
+  StbMemory::release(first);
+  const auto* const second = static_cast<const char*>(StbMemory::allocate(600));
+  ASSERT_NE(second, nullptr);
+  EXPECT_EQ(std::count(second, second + 600, '\0'), 600);
 }
 
 TEST(Image, TruncatedAndGarbledFilesAreErrors) {
