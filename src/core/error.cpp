@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <vector>
 
@@ -27,35 +26,46 @@ std::string formatMessage(const SourceFiles& files, SourceLocation where, std::s
 }
 
 namespace {
-bool sameLetter(char a, char b) {
-  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
 }
 
 /// Insertions, deletions, substitutions and swaps of neighbours that make `a` of `b` (optimal
-/// string alignment).
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> before, above(b.size() + 1), row(b.size() + 1);
+/// string alignment), if they are fewer than `limit`, else no less than it.
+size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
+  std::vector<size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), size_t{0});
   for (size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
+    size_t least = row[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min(
-          {above[j] + 1, row[j - 1] + 1, above[j - 1] + (sameLetter(a[i - 1], b[j - 1]) ? 0 : 1)});
-      if (i > 1 && j > 1 && sameLetter(a[i - 1], b[j - 2]) && sameLetter(a[i - 2], b[j - 1]))
-        row[j] = std::min(row[j], before[j - 2] + 1);
+      size_t d = std::min(std::min(above[j], row[j - 1]) + 1,
+                          above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1));
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d = std::min(d, before[j - 2] + 1);
+      row[j] = d;
+      least = std::min(least, d);
     }
-    before = above;
-    above = row;
+    // No row's least is less than that of one above.
+    if (least >= limit) return limit;
+    std::swap(before, above);
+    std::swap(above, row);
   }
   return above.back();
 }
+
 }  // namespace
 
 std::string nearest(std::string_view name, std::span<const std::string> candidates) {
+  const std::string lower = lowerCase(name);
   std::string best;
   size_t bestDistance = std::max<size_t>(name.size() / 3, 1) + 1;
   for (const std::string& c : candidates) {
-    const size_t d = editDistance(name, c);
+    const size_t d = editDistance(lower, lowerCase(c), bestDistance);
     if (d < bestDistance && d < c.size()) bestDistance = d, best = c;
   }
   return best;
