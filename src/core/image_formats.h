@@ -13,9 +13,11 @@ namespace lampyris {
 
 /// Readers refuse images of more pixels: a damaged header must not claim all memory.
 inline constexpr int64_t kMaxImagePixels = int64_t{1} << 28;
-/// And of more than a byte of the file can stand for: deflate shrinks to 1/1032 at most, a pixel of
-/// a PNG has a bit at least; the other formats of stb pack less.
-inline constexpr int64_t kMaxPixelsPerByte = 1032 * 8;
+/// And of more than a byte of the file can stand for: in a PNG, whose pixels have a bit at least,
+/// deflate shrinks to 1/1032 at most; in a JPG nine blocks of a bit each make 32 x 32 pixels at
+/// most; TGA packs 64 pixels into a byte, HDR and BMP fewer.
+inline constexpr int64_t kMaxPixelsPerByte = 1032 * 8, kMaxJpgPixelsPerByte = 1024,
+                         kMaxOtherPixelsPerByte = 64;
 /// The same for EXR, in bytes of unpacked pixels: its DWAB deflates one byte or two for each 64
 /// values.
 inline constexpr int64_t kMaxExrRatio = 1 << 17;

@@ -128,6 +128,11 @@ Image load(const std::string& path, std::string_view bytes, const StbMemory& mem
   return toImage(pixels, width, height, channels, unit);
 }
 
+int64_t maxPixelsPerByte(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return kMaxPixelsPerByte;
+  return bytes.starts_with('\xff') ? kMaxJpgPixelsPerByte : kMaxOtherPixelsPerByte;
+}
+
 constexpr size_t kMemoryOfHeaders = 1 << 16;
 
 /// More than stb needs for an image of this size; it rounds the sides of JPG images up to 32.
@@ -178,7 +183,7 @@ LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   if (!stbi_info_from_memory(memory, size, &width, &height, &channels))
     failImageRead(path, "this is no PNG, JPG, TGA, BMP or HDR image, or it is damaged");
   checkImageSize(path, width, height);
-  if (int64_t{width} * height > kMaxPixelsPerByte * size)
+  if (int64_t{width} * height > maxPixelsPerByte(bytes) * size)
     failImageRead(path, "the file is truncated, or its size is wrong");
   stbMemory.setLimit(memoryFor(width, height, bytes.size()));
 
