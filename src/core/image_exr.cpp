@@ -109,6 +109,7 @@ std::vector<std::string> layerChannels(const std::string& path, const Imf::Chann
                                        const std::string& layer) {
   for (const auto& letters : {std::array{"R", "G", "B"}, std::array{"X", "Y", "Z"}}) {
     std::vector<std::string> names;
+    names.reserve(letters.size());
     for (const char* letter : letters) names.push_back(layer + "." + letter);
     if (std::all_of(names.begin(), names.end(),
                     [&](const std::string& n) { return channels.findChannel(n); }))
