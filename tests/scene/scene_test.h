@@ -15,6 +15,15 @@
 
 namespace lampyris::test {
 
+inline constexpr const char* kTriangle =
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [0 0 0 1 0 0 0 1 0] ";
+
+/// A tiny film, the given world.
+inline std::string world(const std::string& content) {
+  return "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 4\nWorldBegin\n" +
+         content + "\nWorldEnd\n";
+}
+
 /// What reading a scene needs, and the warnings it gave: "line:column: message".
 struct Reader {
   SourceFiles files;
