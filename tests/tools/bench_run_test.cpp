@@ -33,8 +33,9 @@ class BenchRun : public CommandTest {
   }
   void program(const std::string& name, double nanoseconds) const {
     const std::string time = std::to_string(nanoseconds);
-    script(name, R"(echo '{"benchmarks": [{"name": "work/1", "real_time": 1, "cpu_time": )" + time +
-                     R"(, "time_unit": "ns"}]}')");
+    script(name, R"(case "$*" in *list_tests*) echo work/1; exit ;; esac
+echo '{"benchmarks": [{"name": "work/1", "real_time": 1, "cpu_time": )" +
+                     time + R"(, "time_unit": "ns"}]}')");
   }
   CommandResult bench(const std::string& arguments) const {
     const std::string command = "cd '" + path("").string() +
@@ -64,6 +65,11 @@ TEST_F(BenchRun, ComparesWithTheBaseline) {
   EXPECT_NE(slower.out.find("1.60  slower"), std::string::npos) << slower.out;
   EXPECT_EQ(bench("--tolerance 1.7").code, 0);
   EXPECT_EQ(bench("--filter samplers").code, 0);
+  // What is not wanted doesn't run.
+  script("bench_shapes", "case \"$*\" in *list_tests*) echo work/1 ;; *) exit 7 ;; esac");
+  EXPECT_EQ(bench("--filter samplers").code, 0);
+  EXPECT_EQ(bench("").code, 3);
+  program("bench_shapes", 100);
   // A machine on which everything is slower alike is no regression.
   for (const std::string& name : programs()) program(name, 160);
   EXPECT_EQ(bench("").code, 0);
