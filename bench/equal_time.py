@@ -50,7 +50,6 @@ def selected(suite, args):
     if args.threads is not None: suite.threads = args.threads
     if not 1 <= args.first_seed < schedule.REFERENCE_SEED - suite.repetitions:
         raise suites.SuiteError("--first-seed must be from 1, and below the seeds of references")
-    suite.threads = suite.threads or os.cpu_count()
     return suite
 
 
@@ -68,28 +67,33 @@ def measure(suite, runner, first_seed):
             runner.say("  the scene is left out: %s" % e)
 
 
-def main():
-    args = arguments()
-    try: suite = selected(suites.read(args.suite, args.quick), args)
-    except (suites.SuiteError, OSError) as e: sys.exit("error: %s" % e)
-    out = args.out or os.path.join(suites.ROOT, "build", "bench", suite.name)
-    runner = Runner(args.binary, out, suite.threads, lambda text: print(text, flush=True))
+def run(suite, binary, out, first_seed=1):
+    """Measures all scenes; the path of the results."""
+    suite.threads = suite.threads or os.cpu_count()
+    runner = Runner(binary, out, suite.threads, lambda text: print(text, flush=True))
     results = {"suite": suite.name, "title": suite.title or suite.name, "description": suite.description,
                "date": datetime.date.today().isoformat(), "seconds": suite.seconds, "threads": suite.threads,
-               "repetitions": suite.repetitions, "first_seed": args.first_seed, "machine": machine.machine(), "build": machine.build(args.binary),
+               "repetitions": suite.repetitions, "first_seed": first_seed, "machine": machine.machine(), "build": machine.build(binary),
                "variants": {v.name: v.title or v.name for v in suite.variants}, "scenes": []}
     path, (seconds, renders) = runner.path("results.json"), suite.expected_seconds()
     print("%s: %d renders of %.0f minutes in all; loading and evaluating come to that, what is done already goes off"
           % (suite.name, renders, math.ceil(seconds / 60)), flush=True)
     try:
-        for s in measure(suite, runner, args.first_seed):
+        for s in measure(suite, runner, first_seed):
             results["scenes"].append(s)
             # After each scene, so that there is something to look at before the end.
             with open(path + ".tmp", "w") as f: json.dump(results, f, indent=1)
             os.replace(path + ".tmp", path)
     except KeyboardInterrupt: sys.exit("interrupted; the same command goes on from here")
     if not results["scenes"]: sys.exit("error: no scene could be measured")
-    print(path)
+    return path
+
+
+def main():
+    args = arguments()
+    try: suite = selected(suites.read(args.suite, args.quick), args)
+    except (suites.SuiteError, OSError) as e: sys.exit("error: %s" % e)
+    print(run(suite, args.binary, args.out or os.path.join(suites.ROOT, "build", "bench", suite.name), args.first_seed))
 
 
 if __name__ == "__main__":
