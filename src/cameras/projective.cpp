@@ -8,8 +8,10 @@
 namespace lampyris {
 
 void ShutterParameters::declare(Declaration& d) {
-  d.add("shutteropen", shutterOpen, "Time at which the shutter opens.");
-  d.add("shutterclose", shutterClose, "Time at which the shutter closes.");
+  d.add("shutteropen", shutterOpen, "Time at which the shutter opens.")
+      .rangeIs("any; swapped if they do not ascend");
+  d.add("shutterclose", shutterClose, "Time at which the shutter closes.")
+      .rangeIs("any; swapped if they do not ascend");
 }
 
 Shutter makeShutter(const ShutterParameters& p, const CameraContext& context) {
@@ -29,7 +31,8 @@ void ProjectiveParameters::declare(Declaration& d) {
       .range(1e-4, 1e4)
       .defaultIs("xresolution / yresolution");
   d.add("screenwindow", screenWindow, "Bounds of the screen: x0 x1 y0 y1.")
-      .defaultIs("[-1, 1] along the shorter side");
+      .defaultIs("[-1, 1] along the shorter side")
+      .rangeIs("any, x0 ≠ x1 and y0 ≠ y1");
 }
 
 Screen makeScreen(const ProjectiveParameters& p, const CameraContext& context) {

@@ -20,7 +20,7 @@ struct RealisticParameters : ShutterParameters {
 
   void declare(Declaration& d) {
     ShutterParameters::declare(d);
-    d.add("lensfile", lensFile, "The file that describes the lens.");
+    d.add("lensfile", lensFile, "The file that describes the lens.").rangeIs("any file name");
     d.add("aperturediameter", apertureDiameter, "Diameter of the aperture stop, in millimetres.")
         .atLeast(1e-6);
     d.add("focusdistance", focusDistance, "Distance from the film that is in focus, in metres.")

@@ -85,12 +85,20 @@ void expectCount(const Parameter& p, size_t got, size_t want) {
     fail(p, fmt::format("expected {} value{}, got {}", want, want == 1 ? "" : "s", got));
 }
 
-void checkRange(const ParameterDeclaration& d, const Parameter& p, double v) {
-  if (!(v >= d.min && v <= d.max)) {
-    if (d.max >= 1e300) fail(p, fmt::format("{} is below {}", v, d.min));
-    if (d.min <= -1e300) fail(p, fmt::format("{} is above {}", v, d.max));
-    fail(p, fmt::format("{} is outside [{}, {}]", v, d.min, d.max));
-  }
+/// The value, in its range: a float at an end is inside however the end is rounded.
+template <class T>
+T inRange(const ParameterDeclaration& d, const Parameter& p, T v) {
+  using Wide = std::conditional_t<std::is_integral_v<T>, double, T>;
+  const auto min = static_cast<Wide>(d.min), max = static_cast<Wide>(d.max);
+  const auto wide = static_cast<Wide>(v);
+  if (wide >= min && wide <= max) return v;
+  if (d.clamped) return static_cast<T>(std::clamp(wide, min, max));
+  if (std::isinf(d.max)) fail(p, fmt::format("{} is below {}", v, d.min));
+  if (std::isinf(d.min)) fail(p, fmt::format("{} is above {}", v, d.max));
+  fail(p, fmt::format("{} is outside [{}, {}]", v, d.min, d.max));
+}
+Rgb inRange(const ParameterDeclaration& d, const Parameter& p, const Rgb& c) {
+  return {inRange(d, p, c.r), inRange(d, p, c.g), inRange(d, p, c.b)};
 }
 
 /// The member at the declared offset, made present first if it is optional.
@@ -116,27 +124,25 @@ bool readTexture(const Parameter& p, Input& out) {
 void readFloatInput(const ParameterDeclaration& d, const Parameter& p, FloatInput& out) {
   if (readTexture(p, out)) return;
   expectCount(p, numberCount(p), 1);
-  out.value = floatAt(p, 0);
-  checkRange(d, p, static_cast<double>(out.value));
+  out.value = inRange(d, p, floatAt(p, 0));
 }
 
-void readRgbInput(const Parameter& p, RgbInput& out) {
-  if (!readTexture(p, out)) out.value = readRgb(p);
+void readRgbInput(const ParameterDeclaration& d, const Parameter& p, RgbInput& out) {
+  if (!readTexture(p, out)) out.value = inRange(d, p, readRgb(p));
 }
 
 void readList(const ParameterDeclaration& d, const Parameter& p, void* object) {
   switch (d.target) {
-    case TargetType::IntList:
-      for (const int32_t v : p.integers) checkRange(d, p, v);
-      member<std::vector<int>>(d, object).assign(p.integers.begin(), p.integers.end());
+    case TargetType::IntList: {
+      auto& out = member<std::vector<int>>(d, object);
+      out.assign(p.integers.begin(), p.integers.end());
+      for (int& v : out) v = inRange(d, p, v);
       return;
+    }
     case TargetType::FloatList: {
       auto& out = member<std::vector<float>>(d, object);
       out.resize(numberCount(p));
-      for (size_t i = 0; i < out.size(); ++i) {
-        out[i] = floatAt(p, i);
-        checkRange(d, p, static_cast<double>(out[i]));
-      }
+      for (size_t i = 0; i < out.size(); ++i) out[i] = inRange(d, p, floatAt(p, i));
       return;
     }
     case TargetType::StringList:
@@ -179,13 +185,11 @@ void readParameter(const ParameterDeclaration& d, const Parameter& p, void* obje
   switch (d.target) {
     case TargetType::Int:
       expectCount(p, p.integers.size(), 1);
-      checkRange(d, p, p.integers[0]);
-      member<int>(d, object) = p.integers[0];
+      member<int>(d, object) = inRange(d, p, p.integers[0]);
       return;
     case TargetType::Float:
       expectCount(p, numberCount(p), 1);
-      checkRange(d, p, static_cast<double>(floatAt(p, 0)));
-      member<float>(d, object) = floatAt(p, 0);
+      member<float>(d, object) = inRange(d, p, floatAt(p, 0));
       return;
     case TargetType::Bool:
       expectCount(p, p.strings.size(), 1);
@@ -209,13 +213,13 @@ void readParameter(const ParameterDeclaration& d, const Parameter& p, void* obje
       member<Vec3>(d, object) = {p.floats[0], p.floats[1], p.floats[2]};
       return;
     case TargetType::Rgb:
-      member<Rgb>(d, object) = readRgb(p);
+      member<Rgb>(d, object) = inRange(d, p, readRgb(p));
       return;
     case TargetType::FloatInput:
       readFloatInput(d, p, member<FloatInput>(d, object));
       return;
     case TargetType::RgbInput:
-      readRgbInput(p, member<RgbInput>(d, object));
+      readRgbInput(d, p, member<RgbInput>(d, object));
       return;
     default:
       readList(d, p, object);

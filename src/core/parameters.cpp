@@ -77,14 +77,30 @@ std::string ParameterDeclaration::typeText() const {
   return "";
 }
 
+std::string ParameterDeclaration::rangeText() const {
+  if (!rangeWords.empty()) return rangeWords;
+  if (!choices.empty()) return fmt::format("one of {}", fmt::join(choices, ", "));
+  if (target == TargetType::Bool) return "true or false";
+  const bool low = std::isfinite(min), high = std::isfinite(max);
+  if (low && high) return fmt::format("{} to {}{}", min, max, clamped ? " (clamped)" : "");
+  if (low && clamped) return fmt::format("at least {0} (less counts as {0})", min);
+  if (low) return fmt::format("at least {}", min);
+  return high ? fmt::format("at most {}", max) : "";
+}
+
 bool ParameterDeclaration::matches(std::string_view n) const {
   if (name == n) return true;
   return std::any_of(aliases.begin(), aliases.end(), [n](const std::string& a) { return a == n; });
 }
 
-// Not inline: GCC 12 at -O3 sees an overflow in it that is not there.
+// Not inline: GCC 12 at -O3 sees overflows in them that are not there.
 DeclarationHandle& DeclarationHandle::alias(std::string name) {
   d_.aliases.push_back(std::move(name));
+  return *this;
+}
+
+DeclarationHandle& DeclarationHandle::rangeIs(std::string text) {
+  d_.rangeWords = std::move(text);
   return *this;
 }
 

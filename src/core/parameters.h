@@ -10,6 +10,7 @@
 /// Reading, range checks, messages, `help-scene` and the reference page all come from it.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -110,13 +111,18 @@ struct ParameterDeclaration {
   std::optional<ParameterType> exactType;
   std::string doc;
   std::string defaultText;  ///< for people
-  double min = -1e300, max = 1e300;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool clamped = false;  ///< what is outside counts as the nearest end; else it is an error
   std::vector<std::string> choices;
   std::vector<std::string> aliases;
+  std::string rangeWords;      ///< for people; empty: the members above say it all
   std::string ignoredBecause;  ///< not empty: accepted, warned of once, not read
 
   /// What the file may write for it, e.g. "float" or "rgb, xyz, spectrum, blackbody or texture".
   std::string typeText() const;
+  /// Which values it takes, e.g. "at least 0"; empty if nothing was declared of it.
+  std::string rangeText() const;
   bool matches(std::string_view n) const;
 };
 
@@ -126,6 +132,13 @@ class DeclarationHandle {
   explicit DeclarationHandle(ParameterDeclaration& d) : d_(d) {}
   DeclarationHandle& range(double min, double max) { return d_.min = min, d_.max = max, *this; }
   DeclarationHandle& atLeast(double min) { return d_.min = min, *this; }
+  /// Values outside, also components of colours, count as the nearest end.
+  DeclarationHandle& clamped(double min, double max = std::numeric_limits<double>::infinity()) {
+    return d_.clamped = true, range(min, max);
+  }
+  DeclarationHandle& any() { return rangeIs("any"); }
+  /// Says the range in words: what numbers and choices don't tell, and whoever reads it checks.
+  DeclarationHandle& rangeIs(std::string text);
   DeclarationHandle& oneOf(std::vector<std::string> names) {
     return d_.choices = std::move(names), *this;
   }

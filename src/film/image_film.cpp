@@ -29,17 +29,20 @@ struct ImageFilmParameters {
     d.add("yresolution", yResolution, "Height of the image, in pixels.").range(1, 1 << 20);
     d.add("cropwindow", cropWindow,
           "The part of the image to render: x0 x1 y0 y1 as fractions of its width and height.")
-        .defaultIs("[0 1 0 1]");
+        .defaultIs("[0 1 0 1]")
+        .rangeIs("x0 < x1 and y0 < y1, clamped to 0 and 1, with pixels between");
     d.add("scale", scale, "Factor on the pixels.").range(0, 1e30);
     d.add("maxsampleluminance", maxSampleLuminance,
           "A sample brighter than this is darkened to it.")
         .atLeast(0)
         .defaultIs("infinity");
     d.add("diagonal", diagonal, "Diagonal of the film, in millimetres.").range(1e-6, 1e6);
-    d.add("filename", filename, "Where the image is written, in the format of its ending.");
+    d.add("filename", filename, "Where the image is written, in the format of its ending.")
+        .rangeIs("any file name that ends in .exr, .pfm, .png, .hdr, .tga, .bmp or .jpg");
     d.add("aovs", aovs,
           fmt::format("Layers to write beside the image into EXR files: {}.",
-                      fmt::join(kAovNames, ", ")));
+                      fmt::join(kAovNames, ", ")))
+        .rangeIs("any of these names");
   }
 };
 

@@ -11,7 +11,9 @@ namespace lampyris {
 
 /// Pixels that renderedPixels() (render_loop.h) takes.
 inline void declarePixelBounds(Declaration& d, std::vector<int>& bounds) {
-  d.add("pixelbounds", bounds, "Renders only these pixels: x0 x1 y0 y1.").defaultIs("all");
+  d.add("pixelbounds", bounds, "Renders only these pixels: x0 x1 y0 y1.")
+      .defaultIs("all")
+      .rangeIs("x0 < x1 and y0 < y1, with pixels of the film");
 }
 
 /// A name for IntegratorContext::lightDistribution(). `doc` says what lights are sampled for.
@@ -19,7 +21,10 @@ inline void declareLightSampler(Declaration& d, std::string& name,
                                 std::string doc =
                                     "Which light to sample at a point; see kind "
                                     "lightsampler.") {
-  d.add("lightsampler", name, std::move(doc)).alias("lightsamplestrategy").defaultIs("bvh");
+  d.add("lightsampler", name, std::move(doc))
+      .alias("lightsamplestrategy")
+      .defaultIs("bvh")
+      .rangeIs("a name of kind lightsampler");
 }
 
 /// For integrators that connect paths of the camera with paths of lights.

@@ -18,7 +18,8 @@ struct PathTreeParameters {
     d.add("lightsamplestrategy", strategy,
           "A number in [0, 1] as text: the threshold of tree splitting (1: never); or the name of "
           "a light sampler.")
-        .alias("lightsampler");
+        .alias("lightsampler")
+        .rangeIs("0 to 1, or a name of kind lightsampler");
   }
 };
 

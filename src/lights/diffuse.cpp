@@ -17,12 +17,14 @@ struct DiffuseLightParameters {
   bool twoSided = false;
   int samples = 1;
   void declare(Declaration& d) {
-    d.add("L", radiance,
-          "Emitted radiance, W/(m² sr): a colour, a spectrum texture, or a factor on the picture.");
-    d.add("scale", scale, "Factor on L.");
+    declareColor(
+        d, "L", radiance,
+        "Emitted radiance, W/(m² sr): a colour, a spectrum texture, or a factor on the picture.",
+        scale);
     d.add("filename", filename,
           "Picture that the surface emits: PNG, JPG, TGA, BMP (sRGB-encoded), HDR, EXR or PFM. It "
-          "lies in the (u, v) square and repeats beyond.");
+          "lies in the (u, v) square and repeats beyond.")
+        .rangeIs("any file name, or none");
     d.add("twosided", twoSided, "Whether the side against the normal emits as well.");
     d.add("samples", samples, "Wish for samples a point in direct lighting.")
         .alias("nsamples")

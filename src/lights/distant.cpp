@@ -10,10 +10,10 @@ struct DistantLightParameters {
   Rgb radiance{1}, scale{1};
   Vec3 from{0}, to{0, 0, 1};
   void declare(Declaration& d) {
-    d.add("L", radiance, "Irradiance on a plane that faces the light (W/m²).");
-    d.add("scale", scale, "Factor on L.");
-    d.add("from", from, "With \"to\": the light shines along to − from, in the light's space.");
-    d.add("to", to, "See \"from\".");
+    declareColor(d, "L", radiance, "Irradiance on a plane that faces the light (W/m²).", scale);
+    d.add("from", from, "With \"to\": the light shines along to − from, in the light's space.")
+        .rangeIs("any; they must differ");
+    d.add("to", to, "See \"from\".").rangeIs("any; they must differ");
   }
 };
 

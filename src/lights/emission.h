@@ -6,6 +6,15 @@
 
 namespace lampyris {
 
+/// Declares a light's colour, and its factor "scale".
+template <class Colour>
+void declareColor(Declaration& d, const std::string& name, Colour& color, std::string doc,
+                  Rgb& scale) {
+  const char* const range = "any; a product below 0 counts as 0";
+  d.add(name, color, std::move(doc)).rangeIs(range);
+  d.add("scale", scale, "Factor on " + name + ".").rangeIs(range);
+}
+
 /// The product of a light's colour and its "scale", fit to be emitted: components < 0 (colours
 /// outside of the gamut) become 0 with a warning. Throws SceneError if it is not finite.
 Rgb emittedColor(const Rgb& color, const Rgb& scale, const BuildContext& context);

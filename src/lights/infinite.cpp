@@ -15,12 +15,12 @@ struct InfiniteLightParameters {
   int samples = 1;
   std::string map;
   void declare(Declaration& d) {
-    d.add("L", radiance, "Radiance from all directions, or a factor on the map.");
-    d.add("scale", scale, "Factor on L.");
+    declareColor(d, "L", radiance, "Radiance from all directions, or a factor on the map.", scale);
     d.add("samples", samples, "Wish for samples a point in direct lighting.")
         .alias("nsamples")
         .range(1, 1e6);
-    d.add("mapname", map, "Latitude-longitude image, z up; values are taken as linear.");
+    d.add("mapname", map, "Latitude-longitude image, z up; values are taken as linear.")
+        .rangeIs("any file name, or none");
   }
 };
 

@@ -9,9 +9,9 @@
 namespace lampyris {
 
 void PatternLightParameters::declare(Declaration& d) {
-  d.add("I", intensity, "Radiant intensity (W/sr) where the image is white.");
-  d.add("scale", scale, "Factor on I.");
-  d.add("mapname", map, "The image; values are taken as linear. Without one it is white.");
+  declareColor(d, "I", intensity, "Radiant intensity (W/sr) where the image is white.", scale);
+  d.add("mapname", map, "The image; values are taken as linear. Without one it is white.")
+      .rangeIs("any file name, or none");
 }
 
 PatternLight::PatternLight(const PatternLightParameters& parameters, const LightContext& context,

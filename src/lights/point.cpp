@@ -11,9 +11,8 @@ struct PointLightParameters {
   Rgb intensity{1}, scale{1};
   Vec3 from{0};
   void declare(Declaration& d) {
-    d.add("I", intensity, "Radiant intensity (W/sr).");
-    d.add("scale", scale, "Factor on I.");
-    d.add("from", from, "Position, in the light's space.");
+    declareColor(d, "I", intensity, "Radiant intensity (W/sr).", scale);
+    d.add("from", from, "Position, in the light's space.").any();
   }
 };
 

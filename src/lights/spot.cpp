@@ -12,14 +12,14 @@ struct SpotLightParameters {
   Vec3 from{0}, to{0, 0, 1};
   float coneAngle = 30, coneDelta = 5;
   void declare(Declaration& d) {
-    d.add("I", intensity, "Radiant intensity along the axis (W/sr).");
-    d.add("scale", scale, "Factor on I.");
-    d.add("from", from, "Position, in the light's space.");
-    d.add("to", to, "A point that the light is directed at.");
+    declareColor(d, "I", intensity, "Radiant intensity along the axis (W/sr).", scale);
+    d.add("from", from, "Position, in the light's space.").rangeIs("any; they must differ");
+    d.add("to", to, "A point that the light is directed at.").rangeIs("any; they must differ");
     d.add("coneangle", coneAngle, "Angle between the axis and the edge of the cone, in degrees.")
         .range(0, 180);
     d.add("conedeltaangle", coneDelta,
-          "Width of the zone inside of the edge where the intensity falls to 0, in degrees.");
+          "Width of the zone inside of the edge where the intensity falls to 0, in degrees.")
+        .any();
   }
 };
 

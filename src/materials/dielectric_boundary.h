@@ -15,8 +15,8 @@ struct BoundaryParameters {
   FloatInput uRoughness = 0, vRoughness = 0;
   bool remapRoughness = true;
   void declareBoundary(Declaration& d) {
-    d.add("Kr", kr, "Factor on the reflection.");
-    d.add("Kt", kt, "Factor on the transmission.");
+    d.add("Kr", kr, "Factor on the reflection.").clamped(0);
+    d.add("Kt", kt, "Factor on the transmission.").clamped(0);
     d.add("uroughness", uRoughness, "Roughness along u; smooth if both are 0.").atLeast(0);
     d.add("vroughness", vRoughness, "Roughness along v; smooth if both are 0.").atLeast(0);
     d.add("remaproughness", remapRoughness,

@@ -17,24 +17,31 @@ struct DisneyParameters : SurfaceParameters {
   FloatInput flatness = 0, diffTrans = 1;
   bool thin = false;
   void declare(Declaration& d) {
-    d.add("color", color, "Base colour.");
-    d.add("metallic", metallic, "0: dielectric, 1: metal.");
+    d.add("color", color, "Base colour.").clamped(0);
+    d.add("metallic", metallic, "0: dielectric, 1: metal.").clamped(0, 1);
     d.add("eta", eta, "Index of refraction inside.").range(kMinEta, kMaxEta);
-    d.add("roughness", roughness, "Roughness, in [0, 1]; the microfacets' slope is its square.");
-    d.add("speculartint", specularTint, "How much of the base colour the reflection has.");
-    d.add("anisotropic", anisotropic, "0: alike in all directions, 1: a highlight along u.");
-    d.add("sheen", sheen, "Reflection of cloth at grazing angles.");
-    d.add("sheentint", sheenTint, "How much of the base colour the sheen has.");
-    d.add("clearcoat", clearcoat, "Factor on a second, colourless coat.");
-    d.add("clearcoatgloss", clearcoatGloss, "Its gloss: 0 is satin, 1 is shiny.");
-    d.add("spectrans", specTrans, "Share of light that is refracted instead of diffused.");
+    d.add("roughness", roughness, "Roughness, in [0, 1]; the microfacets' slope is its square.")
+        .clamped(0);
+    d.add("speculartint", specularTint, "How much of the base colour the reflection has.")
+        .clamped(0, 1);
+    d.add("anisotropic", anisotropic, "0: alike in all directions, 1: a highlight along u.")
+        .clamped(0, 1);
+    d.add("sheen", sheen, "Reflection of cloth at grazing angles.").clamped(0);
+    d.add("sheentint", sheenTint, "How much of the base colour the sheen has.").clamped(0, 1);
+    d.add("clearcoat", clearcoat, "Factor on a second, colourless coat.").clamped(0);
+    d.add("clearcoatgloss", clearcoatGloss, "Its gloss: 0 is satin, 1 is shiny.").clamped(0, 1);
+    d.add("spectrans", specTrans, "Share of light that is refracted instead of diffused.")
+        .clamped(0, 1);
     d.add("scatterdistance", scatterDistance,
           "About how far light goes below the surface, in the scene's unit of length; black: no "
-          "subsurface scattering.");
+          "subsurface scattering.")
+        .clamped(0);
     d.add("thin", thin, "The surface is a thin sheet: no subsurface scattering, light passes.");
-    d.add("flatness", flatness, "Of a thin sheet: share of a flatter diffuse reflection.");
+    d.add("flatness", flatness, "Of a thin sheet: share of a flatter diffuse reflection.")
+        .clamped(0, 1);
     d.add("difftrans", diffTrans,
-          "Of a thin sheet: diffuse transmission; 0 all is reflected, 1 half, 2 none.");
+          "Of a thin sheet: diffuse transmission; 0 all is reflected, 1 half, 2 none.")
+        .clamped(0, 2);
     declareSurface(d);
   }
 };

@@ -85,7 +85,8 @@ class FourierLobe final : public Lobe {
 struct FourierParameters : SurfaceParameters {
   std::string file;
   void declare(Declaration& d) {
-    d.add("bsdffile", file, "A BSDF file of the format SCATFUN, version 1.");
+    d.add("bsdffile", file, "A BSDF file of the format SCATFUN, version 1.")
+        .rangeIs("any file name");
     declareSurface(d);
   }
 };

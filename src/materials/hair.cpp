@@ -14,10 +14,13 @@ struct HairParameters {
   FloatInput eta = 1.55f, betaM = 0.3f, betaN = 0.3f, alpha = 2;
   void declare(Declaration& d) {
     d.add("sigma_a", sigmaA, "Absorption over the hair's radius; before all other colours.")
-        .defaultIs("of eumelanin 1.3");
-    d.add("color", color, "Colour of many hairs, in place of an absorption.");
-    d.add("eumelanin", eumelanin, "Concentration of brown pigment, if neither of these is given.");
-    d.add("pheomelanin", pheomelanin, "Concentration of red pigment, if neither is given.");
+        .defaultIs("of eumelanin 1.3")
+        .clamped(0);
+    d.add("color", color, "Colour of many hairs, in place of an absorption.").clamped(0);
+    d.add("eumelanin", eumelanin, "Concentration of brown pigment, if neither of these is given.")
+        .clamped(0);
+    d.add("pheomelanin", pheomelanin, "Concentration of red pigment, if neither is given.")
+        .clamped(0);
     d.add("eta", eta, "Index of refraction inside.").range(1, kMaxEta);
     d.add("beta_m", betaM, "Roughness along the hair, in [0, 1].").range(0, 1);
     d.add("beta_n", betaN, "Roughness around the hair, in [0, 1].").range(0, 1);
@@ -75,7 +78,8 @@ class HairMaterial final : public SurfaceMaterial {
       case Source::Color:
         return hairAbsorptionOfColor(reflectance(color_(at)), betaN);
       default:
-        return reflectance(hairAbsorptionOfMelanin(eumelanin_(at), pheomelanin_(at)));
+        return reflectance(hairAbsorptionOfMelanin(std::max(0.f, eumelanin_(at)),
+                                                   std::max(0.f, pheomelanin_(at))));
     }
   }
   Source source_ = Source::Melanin;

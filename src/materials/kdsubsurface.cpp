@@ -7,8 +7,8 @@ namespace {
 struct KdSubsurfaceParameters : DiffusionParameters {
   RgbInput kd = 0.5f, mfp = 1.f;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Share of light that comes out again.");
-    d.add("mfp", mfp, "Mean free path in the medium, in the scene's unit of length.");
+    d.add("Kd", kd, "Share of light that comes out again.").clamped(0);
+    d.add("mfp", mfp, "Mean free path in the medium, in the scene's unit of length.").clamped(0);
     declareDiffusion(d, "Factor on the mean free path.");
   }
 };

@@ -10,9 +10,9 @@ struct MatteParameters : SurfaceParameters {
   RgbInput kd = 0.5f;
   FloatInput sigma = 0;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Diffuse reflectance.");
-    d.add("sigma", sigma,
-          "Roughness of Oren and Nayar's model in degrees, clamped to [0, 90]; 0 is Lambert's.");
+    d.add("Kd", kd, "Diffuse reflectance.").clamped(0);
+    d.add("sigma", sigma, "Roughness of Oren and Nayar's model in degrees; 0 is Lambert's.")
+        .clamped(0, 90);
     declareSurface(d);
   }
 };

@@ -16,8 +16,10 @@ struct MetalParameters : SurfaceParameters {
   std::optional<FloatInput> uRoughness, vRoughness;
   bool remapRoughness = true;
   void declare(Declaration& d) {
-    d.add("eta", eta, "Index of refraction.").defaultIs("copper's");
-    d.add("k", k, "Absorption coefficient, the index's imaginary part.").defaultIs("copper's");
+    d.add("eta", eta, "Index of refraction.").defaultIs("copper's").clamped(0);
+    d.add("k", k, "Absorption coefficient, the index's imaginary part.")
+        .defaultIs("copper's")
+        .clamped(0);
     d.add("roughness", roughness, "Roughness in both directions.").atLeast(0);
     d.add("uroughness", uRoughness, "Roughness along u, instead of \"roughness\".").atLeast(0);
     d.add("vroughness", vRoughness, "Roughness along v, instead of \"roughness\".").atLeast(0);

@@ -8,7 +8,7 @@ namespace {
 struct MirrorParameters : SurfaceParameters {
   RgbInput kr = 0.9f;
   void declare(Declaration& d) {
-    d.add("Kr", kr, "Reflectance.");
+    d.add("Kr", kr, "Reflectance.").clamped(0);
     declareSurface(d);
   }
 };

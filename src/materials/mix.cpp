@@ -10,9 +10,11 @@ struct MixParameters {
   std::string first, second;
   RgbInput amount = 0.5f;
   void declare(Declaration& d) {
-    d.add("namedmaterial1", first, "Name of a material; its bump map counts for both.");
-    d.add("namedmaterial2", second, "Name of another.");
-    d.add("amount", amount, "Share of the first; the second has the rest.");
+    d.add("namedmaterial1", first, "Name of a material; its bump map counts for both.")
+        .rangeIs("a name given by MakeNamedMaterial");
+    d.add("namedmaterial2", second, "Name of another.")
+        .rangeIs("a name given by MakeNamedMaterial");
+    d.add("amount", amount, "Share of the first; the second has the rest.").clamped(0);
   }
 };
 

@@ -12,8 +12,8 @@ struct PlasticParameters : SurfaceParameters {
   FloatInput roughness = 0.1f;
   bool remapRoughness = true;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Diffuse reflectance.");
-    d.add("Ks", ks, "Factor on the glossy reflection.");
+    d.add("Kd", kd, "Diffuse reflectance.").clamped(0);
+    d.add("Ks", ks, "Factor on the glossy reflection.").clamped(0);
     d.add("roughness", roughness, "Roughness of the glossy reflection.").atLeast(0);
     d.add("remaproughness", remapRoughness,
           "Roughness is in [0, 1] and mapped to the microfacets' slope; else it is the slope.");

@@ -11,8 +11,8 @@ struct SubstrateParameters : SurfaceParameters {
   FloatInput uRoughness = 0.1f, vRoughness = 0.1f;
   bool remapRoughness = true;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Diffuse reflectance of the base.");
-    d.add("Ks", ks, "Reflectance of the coat from above.");
+    d.add("Kd", kd, "Diffuse reflectance of the base.").clamped(0);
+    d.add("Ks", ks, "Reflectance of the coat from above.").clamped(0);
     d.add("uroughness", uRoughness, "Roughness of the coat along u.").atLeast(0);
     d.add("vroughness", vRoughness, "Roughness of the coat along v.").atLeast(0);
     d.add("remaproughness", remapRoughness,

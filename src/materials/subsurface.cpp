@@ -14,10 +14,14 @@ struct SubsurfaceParameters : DiffusionParameters {
   std::string name;
   std::optional<RgbInput> sigmaA, sigmaS;
   void declare(Declaration& d) {
-    d.add("name", name, "A measured medium, e.g. \"Skin1\", per millimetre; \"g\" is 0 then.");
+    d.add("name", name, "A measured medium, e.g. \"Skin1\", per millimetre; \"g\" is 0 then.")
+        .rangeIs("the name of a measured medium, or none");
     d.add("sigma_a", sigmaA, "Absorption, instead of the medium's.")
-        .defaultIs("0.0011 0.0024 0.014");
-    d.add("sigma_s", sigmaS, "Scattering, instead of the medium's.").defaultIs("2.55 3.21 3.77");
+        .defaultIs("0.0011 0.0024 0.014")
+        .clamped(0);
+    d.add("sigma_s", sigmaS, "Scattering, instead of the medium's.")
+        .defaultIs("2.55 3.21 3.77")
+        .clamped(0);
     declareDiffusion(d, "Factor on absorption and scattering, e.g. for the unit of length.");
   }
 };

@@ -13,7 +13,7 @@ namespace lampyris {
 struct SurfaceParameters {
   std::optional<FloatInput> bumpMap;
   void declareSurface(Declaration& d) {
-    d.add("bumpmap", bumpMap, "Displacement along the normal that bends the shading normal.");
+    d.add("bumpmap", bumpMap, "Displacement along the normal that bends the shading normal.").any();
   }
 };
 
@@ -66,9 +66,9 @@ inline Rgb reflectance(const Rgb& c) {
   return {fix(c.r), fix(c.g), fix(c.b)};
 }
 /// An index of refraction in relation to another: constants are range-checked, textures end here.
-inline constexpr float kMinEta = 1e-2f, kMaxEta = 1e2f;
+inline constexpr double kMinEta = 1e-2, kMaxEta = 1e2;
 inline float refractiveIndex(float eta) {
-  return eta > 0 ? std::clamp(eta, kMinEta, kMaxEta) : 1.f;
+  return eta > 0 ? std::clamp(eta, static_cast<float>(kMinEta), static_cast<float>(kMaxEta)) : 1.f;
 }
 
 /// For makePlugin.

@@ -12,10 +12,10 @@ struct TranslucentParameters : SurfaceParameters {
   FloatInput roughness = 0.1f;
   bool remapRoughness = true;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Factor on diffuse scattering.");
-    d.add("Ks", ks, "Factor on glossy scattering.");
-    d.add("reflect", reflect, "Share that is reflected.");
-    d.add("transmit", transmit, "Share that is transmitted.");
+    d.add("Kd", kd, "Factor on diffuse scattering.").clamped(0);
+    d.add("Ks", ks, "Factor on glossy scattering.").clamped(0);
+    d.add("reflect", reflect, "Share that is reflected.").clamped(0);
+    d.add("transmit", transmit, "Share that is transmitted.").clamped(0);
     d.add("roughness", roughness, "Roughness of the glossy scattering.").atLeast(0);
     d.add("remaproughness", remapRoughness,
           "Roughness is in [0, 1] and mapped to the microfacets' slope; else it is the slope.");

@@ -14,11 +14,11 @@ struct UberParameters : SurfaceParameters {
   std::optional<FloatInput> uRoughness, vRoughness;
   bool remapRoughness = true;
   void declare(Declaration& d) {
-    d.add("Kd", kd, "Diffuse reflectance.");
-    d.add("Ks", ks, "Factor on the glossy reflection.");
-    d.add("Kr", kr, "Factor on the mirror reflection.");
-    d.add("Kt", kt, "Factor on the refraction.");
-    d.add("opacity", opacity, "1 minus the share of light that passes straight on.");
+    d.add("Kd", kd, "Diffuse reflectance.").clamped(0);
+    d.add("Ks", ks, "Factor on the glossy reflection.").clamped(0);
+    d.add("Kr", kr, "Factor on the mirror reflection.").clamped(0);
+    d.add("Kt", kt, "Factor on the refraction.").clamped(0);
+    d.add("opacity", opacity, "1 minus the share of light that passes straight on.").clamped(0);
     d.add("eta", eta, "Index of refraction inside.").alias("index").range(kMinEta, kMaxEta);
     d.add("roughness", roughness, "Roughness of the glossy reflection.").atLeast(0);
     d.add("uroughness", uRoughness, "Roughness along u, instead of \"roughness\".").atLeast(0);

@@ -11,9 +11,9 @@ namespace {
 constexpr const char* kDefaultMedium = "Wholemilk";
 
 Rgb checked(const Rgb& c, const char* name, const MediumContext& context) {
-  if (!c.isFinite() || c.r < 0 || c.g < 0 || c.b < 0)
-    throw SceneError(context.location, std::string("medium: ") + name +
-                                           " times scale must be finite and not negative");
+  if (!c.isFinite())
+    throw SceneError(context.location,
+                     std::string("medium: ") + name + " times scale must be finite");
   return c;
 }
 
@@ -22,11 +22,14 @@ Rgb checked(const Rgb& c, const char* name, const MediumContext& context) {
 void CoefficientParameters::declare(Declaration& d) {
   d.add("preset", preset,
         "Name of a measured medium (in 1/mm), e.g. \"Skimmilk\", for sigma_a and sigma_s.")
-      .defaultIs("none");
+      .defaultIs("none")
+      .rangeIs("the name of a measured medium, or none");
   d.add("sigma_a", absorption, "Absorption coefficient, in 1/length.")
-      .defaultIs("the preset's; 0.0011 0.0024 0.014");
+      .defaultIs("the preset's; 0.0011 0.0024 0.014")
+      .atLeast(0);
   d.add("sigma_s", scattering, "Scattering coefficient, in 1/length.")
-      .defaultIs("the preset's; 2.55 3.21 3.77");
+      .defaultIs("the preset's; 2.55 3.21 3.77")
+      .atLeast(0);
   d.add("scale", scale, "Factor on both coefficients.").atLeast(0);
   d.add("g", g, "Mean cosine of scattering: > 0 forwards, < 0 backwards.").range(-0.999, 0.999);
 }

@@ -109,7 +109,9 @@ struct HeterogeneousParameters {
 
   void declare(Declaration& d) {
     coefficients.declare(d);
-    d.add("density", density, "Factors on the coefficients, nx × ny × nz of them, x fastest.");
+    d.add("density", density, "Factors on the coefficients, x fastest.")
+        .atLeast(0)
+        .rangeIs("nx × ny × nz values, at least 0");
     d.add("nx", nx, "Cells along x.").atLeast(1);
     d.add("ny", ny, "Cells along y.").atLeast(1);
     d.add("nz", nz, "Cells along z.").atLeast(1);
@@ -118,8 +120,8 @@ struct HeterogeneousParameters {
           "space.")
         .range(0, 256)
         .defaultIs("0: an eighth of the density's longest side, from 16 to 64");
-    d.add("p0", p0, "A corner of the grid.");
-    d.add("p1", p1, "The opposite corner.");
+    d.add("p0", p0, "A corner of the grid.").rangeIs("any that differ in x, y and z");
+    d.add("p1", p1, "The opposite corner.").rangeIs("any that differ in x, y and z");
   }
 };
 
@@ -130,10 +132,6 @@ std::unique_ptr<Medium> create(const HeterogeneousParameters& p, const MediumCon
                      fmt::format("heterogeneous medium: nx × ny × nz = {} × {} × {} = {} values of "
                                  "\"density\" are needed, there are {}",
                                  p.nx, p.ny, p.nz, wanted, p.density.size()));
-  for (const float value : p.density)
-    if (!(value >= 0) || !std::isfinite(value))
-      throw SceneError(context.location,
-                       "heterogeneous medium: densities must be finite and not negative");
   const Vec3 extent = p.p1 - p.p0;
   if (extent.x == 0 || extent.y == 0 || extent.z == 0)
     throw SceneError(context.location, "heterogeneous medium: p0 and p1 span no volume");

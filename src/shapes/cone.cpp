@@ -13,8 +13,8 @@ struct ConeParameters {
 
   void declare(Declaration& d) {
     d.add("radius", radius, "Radius at z = 0.").atLeast(0);
-    d.add("height", height, "z of the apex; nothing is there if it is not > 0.");
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("height", height, "z of the apex; nothing is there if it is not > 0.").clamped(0);
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

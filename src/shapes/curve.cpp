@@ -29,12 +29,14 @@ struct CurveParameters {
     d.add("basis", basis, "Segments of Bézier curves, or a uniform B-spline.")
         .oneOf({"bezier", "bspline"});
     d.add("degree", degree, "2 or 3.").range(2, 3);
-    d.add("P", points, "Control points.");
+    d.add("P", points, "Control points.")
+        .rangeIs("degree + 1 points and degree (bspline: 1) for each further segment");
     d.add("width", width, "Width from side to side.").atLeast(0);
     d.add("width0", startWidth, "Width at the start.").atLeast(0).defaultIs("width");
     d.add("width1", endWidth, "Width at the end.").atLeast(0).defaultIs("width");
     d.add("N", normals, "Normals of a ribbon: one for each end of a segment.")
-        .type(ParameterType::Normal);
+        .type(ParameterType::Normal)
+        .rangeIs("none, or segments + 1");
     d.add("splitdepth", splitDepth,
           "Each segment has 2^splitdepth boxes: faster rays for more memory. An integer.")
         .range(0, 10);

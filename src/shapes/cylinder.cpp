@@ -13,9 +13,9 @@ struct CylinderParameters {
 
   void declare(Declaration& d) {
     d.add("radius", radius, "Radius.").atLeast(0);
-    d.add("zmin", zMin, "Lower end along the z axis.");
-    d.add("zmax", zMax, "Upper end along the z axis.");
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("zmin", zMin, "Lower end along the z axis.").any();
+    d.add("zmax", zMax, "Upper end along the z axis.").any();
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

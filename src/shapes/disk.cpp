@@ -13,10 +13,10 @@ struct DiskParameters {
   float height = 0, radius = 1, innerRadius = 0, phiMax = 360;
 
   void declare(Declaration& d) {
-    d.add("height", height, "Position along the z axis.");
+    d.add("height", height, "Position along the z axis.").any();
     d.add("radius", radius, "Outer radius.").atLeast(0);
     d.add("innerradius", innerRadius, "Radius of the hole.").atLeast(0);
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

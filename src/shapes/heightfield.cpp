@@ -16,7 +16,7 @@ struct HeightfieldParameters {
   void declare(Declaration& d) {
     d.add("nu", nu, "Samples along x.").atLeast(2).defaultIs("required");
     d.add("nv", nv, "Samples along y.").atLeast(2).defaultIs("required");
-    d.add("Pz", z, "Heights, nu × nv, row after row along x.");
+    d.add("Pz", z, "Heights, nu × nv, row after row along x.").rangeIs("nu × nv values");
   }
 };
 

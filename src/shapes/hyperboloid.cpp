@@ -13,9 +13,9 @@ struct HyperboloidParameters {
   float phiMax = 360;
 
   void declare(Declaration& d) {
-    d.add("p1", p1, "Start of the line that is turned about the z axis.");
-    d.add("p2", p2, "End of the line.");
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("p1", p1, "Start of the line that is turned about the z axis.").any();
+    d.add("p2", p2, "End of the line.").any();
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

@@ -30,8 +30,9 @@ struct LoopSubdivParameters {
   std::string scheme = "loop";
 
   void declare(Declaration& d) {
-    d.add("indices", indices, "Three vertex numbers a triangle of the control mesh.");
-    d.add("P", positions, "Vertices of the control mesh.");
+    d.add("indices", indices, "Three vertex numbers a triangle of the control mesh.")
+        .rangeIs("0 to the last vertex; a multiple of 3 values");
+    d.add("P", positions, "Vertices of the control mesh.").rangeIs("any, for each vertex");
     d.add("levels", levels, "How often triangles are split in four.").range(0, 15).alias("nlevels");
     d.add("scheme", scheme, "The subdivision scheme.").oneOf({"loop"});
   }

@@ -29,10 +29,14 @@ struct AxisParameters {
     d.add(u + "order", order, "Order along " + u + ": the degree + 1.")
         .range(2, kHighestOrder)
         .defaultIs("required");
-    d.add(u + "knots", knots, "Knots along " + u + ": n" + u + " + " + u + "order, ascending.");
+    d.add(u + "knots", knots, "Knots along " + u + ".")
+        .rangeIs("n" + u + " + " + u + "order values, ascending");
     d.add(u + "0", begin, "Where the rendered part begins along " + u + ".")
-        .defaultIs("where the surface does");
-    d.add(u + "1", end, "Where it ends.").defaultIs("where the surface does");
+        .defaultIs("where the surface does")
+        .rangeIs("within the knots, below " + u + "1");
+    d.add(u + "1", end, "Where it ends.")
+        .defaultIs("where the surface does")
+        .rangeIs("within the knots, above " + u + "0");
   }
 };
 
@@ -44,8 +48,9 @@ struct NurbsParameters {
   void declare(Declaration& d) {
     u.declare(d, "u");
     v.declare(d, "v");
-    d.add("P", points, "Control points, row after row along u.");
-    d.add("Pw", weighted, "The same as x w, y w, z w, w for rational surfaces, instead of P.");
+    d.add("P", points, "Control points, row after row along u.").rangeIs("nu × nv points");
+    d.add("Pw", weighted, "The same as x w, y w, z w, w for rational surfaces, instead of P.")
+        .rangeIs("nu × nv times four values, all w of one sign");
   }
 };
 

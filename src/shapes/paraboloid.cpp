@@ -13,9 +13,9 @@ struct ParaboloidParameters {
 
   void declare(Declaration& d) {
     d.add("radius", radius, "Radius at z = zmax. The apex is at z = 0.").atLeast(0);
-    d.add("zmin", zMin, "Lower end along the z axis.");
-    d.add("zmax", zMax, "Upper end along the z axis.");
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("zmin", zMin, "Lower end along the z axis.").rangeIs("any; there is no surface below 0");
+    d.add("zmax", zMax, "Upper end along the z axis.").rangeIs("any; there is no surface below 0");
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

@@ -14,9 +14,9 @@ struct PlyMeshParameters {
   std::optional<FloatInput> alpha, shadowAlpha;
 
   void declare(Declaration& d) {
-    d.add("filename", filename, "The PLY file.");
-    d.add("alpha", alpha, "Rays pass where it is 0.");
-    d.add("shadowalpha", shadowAlpha, "The same for shadow rays only.");
+    d.add("filename", filename, "The PLY file.").rangeIs("any file name");
+    d.add("alpha", alpha, "Rays pass where it is 0.").any();
+    d.add("shadowalpha", shadowAlpha, "The same for shadow rays only.").any();
   }
 };
 

@@ -20,9 +20,13 @@ struct SphereParameters {
 
   void declare(Declaration& d) {
     d.add("radius", radius, "Radius.").atLeast(0);
-    d.add("zmin", zMin, "Cut off below this z.").defaultIs("-radius");
-    d.add("zmax", zMax, "Cut off above this z.").defaultIs("radius");
-    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.");
+    d.add("zmin", zMin, "Cut off below this z.")
+        .defaultIs("-radius")
+        .rangeIs("any; clamped to the radius");
+    d.add("zmax", zMax, "Cut off above this z.")
+        .defaultIs("radius")
+        .rangeIs("any; clamped to the radius");
+    d.add("phimax", phiMax, "Sweep about the z axis, in degrees.").clamped(0, 360);
   }
 };
 

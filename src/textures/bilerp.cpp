@@ -12,10 +12,10 @@ struct BilerpParameters {
   MappingParameters mapping;
 
   void declare(Declaration& d) {
-    d.add("v00", v00, "Value at (0, 0).");
-    d.add("v01", v01, "Value at (0, 1).");
-    d.add("v10", v10, "Value at (1, 0).");
-    d.add("v11", v11, "Value at (1, 1).");
+    d.add("v00", v00, "Value at (0, 0).").any();
+    d.add("v01", v01, "Value at (0, 1).").any();
+    d.add("v10", v10, "Value at (1, 0).").any();
+    d.add("v11", v11, "Value at (1, 1).").any();
     mapping.declare(d);
   }
 };

@@ -22,8 +22,8 @@ struct CheckerboardParameters {
   void declare(Declaration& d) {
     d.add("dimension", dimension, "2: squares over texture coordinates, 3: cubes over space.")
         .range(2, 3);
-    d.add("tex1", tex1, "In the squares whose coordinates have an even sum.");
-    d.add("tex2", tex2, "In the other squares.");
+    d.add("tex1", tex1, "In the squares whose coordinates have an even sum.").any();
+    d.add("tex2", tex2, "In the other squares.").any();
     d.add("aamode", aamode, "Antialiasing of a two-dimensional board.")
         .oneOf({"closedform", "none"});
     mapping.declare(d);

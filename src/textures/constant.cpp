@@ -9,7 +9,7 @@ template <class T>
 struct ConstantParameters {
   T value{1};
 
-  void declare(Declaration& d) { d.add("value", value, "The value everywhere."); }
+  void declare(Declaration& d) { d.add("value", value, "The value everywhere.").any(); }
 };
 
 template <class T>

@@ -16,8 +16,8 @@ struct DotsParameters {
   MappingParameters mapping;
 
   void declare(Declaration& d) {
-    d.add("inside", inside, "Between the dots (as in pbrt-v3).");
-    d.add("outside", outside, "In the dots (as in pbrt-v3).");
+    d.add("inside", inside, "Between the dots (as in pbrt-v3).").any();
+    d.add("outside", outside, "In the dots (as in pbrt-v3).").any();
     mapping.declare(d);
   }
 };

@@ -24,9 +24,10 @@ struct ImagemapParameters {
   MappingParameters mapping;
 
   void declare(Declaration& d) {
-    d.add("filename", filename, "The image: PNG, JPG, TGA, BMP, HDR, EXR or PFM.");
+    d.add("filename", filename, "The image: PNG, JPG, TGA, BMP, HDR, EXR or PFM.")
+        .rangeIs("any file name");
     d.add("wrap", wrap, "What lies beyond the image.").oneOf({"repeat", "black", "clamp"});
-    d.add("scale", scale, "Factor on the image's values.");
+    d.add("scale", scale, "Factor on the image's values.").any();
     d.add("gamma", gamma, "Whether the image's values are sRGB-encoded.")
         .defaultIs("true for .png, .tga, .jpg and .bmp files");
     d.add("trilinear", trilinear, "Trilinear instead of elliptical filtering.");

@@ -16,8 +16,8 @@ struct MarbleParameters : OctaveParameters {
 
   void declare(Declaration& d) {
     OctaveParameters::declare(d);
-    d.add("scale", scale, "Factor on positions.");
-    d.add("variation", variation, "How far noise bends the veins.");
+    d.add("scale", scale, "Factor on positions.").any();
+    d.add("variation", variation, "How far noise bends the veins.").any();
   }
 };
 

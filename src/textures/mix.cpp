@@ -11,9 +11,9 @@ struct MixParameters {
   FloatInput amount{0.5f};
 
   void declare(Declaration& d) {
-    d.add("tex1", tex1, "The value where amount is 0.");
-    d.add("tex2", tex2, "The value where amount is 1.");
-    d.add("amount", amount, "Share of tex2.");
+    d.add("tex1", tex1, "The value where amount is 0.").any();
+    d.add("tex2", tex2, "The value where amount is 1.").any();
+    d.add("amount", amount, "Share of tex2.").any();
   }
 };
 

@@ -13,7 +13,8 @@ struct OctaveParameters {
   void declare(Declaration& d) {
     d.add("octaves", octaves.count, "How many frequencies of noise are summed, at most.")
         .range(0, kMostOctaves);
-    d.add("roughness", octaves.roughness, "Amplitude of a frequency in relation to the last one.");
+    d.add("roughness", octaves.roughness, "Amplitude of a frequency in relation to the last one.")
+        .any();
   }
 };
 

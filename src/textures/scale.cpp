@@ -10,8 +10,8 @@ struct ScaleParameters {
   TextureInput<T> tex1{1.f}, tex2{1.f};
 
   void declare(Declaration& d) {
-    d.add("tex1", tex1, "First factor.");
-    d.add("tex2", tex2, "Second factor.");
+    d.add("tex1", tex1, "First factor.").any();
+    d.add("tex2", tex2, "Second factor.").any();
   }
 };
 

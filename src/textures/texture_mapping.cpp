@@ -10,14 +10,16 @@ namespace lampyris {
 void MappingParameters::declare(Declaration& d) {
   d.add("mapping", mapping, "How points are mapped to texture coordinates.")
       .oneOf({"uv", "spherical", "cylindrical", "planar"});
-  d.add("uscale", uscale, "Factor on u (uv mapping).");
-  d.add("vscale", vscale, "Factor on v (uv mapping).");
-  d.add("udelta", udelta, "Added to the first coordinate (uv and planar mapping).");
-  d.add("vdelta", vdelta, "Added to the second coordinate (uv and planar mapping).");
+  d.add("uscale", uscale, "Factor on u (uv mapping).").any();
+  d.add("vscale", vscale, "Factor on v (uv mapping).").any();
+  d.add("udelta", udelta, "Added to the first coordinate (uv and planar mapping).").any();
+  d.add("vdelta", vdelta, "Added to the second coordinate (uv and planar mapping).").any();
   d.add("v1", v1, "World-space vector of the first coordinate (planar mapping).")
-      .type(ParameterType::Vector3);
+      .type(ParameterType::Vector3)
+      .any();
   d.add("v2", v2, "World-space vector of the second coordinate (planar mapping).")
-      .type(ParameterType::Vector3);
+      .type(ParameterType::Vector3)
+      .any();
 }
 
 TextureMapping2D::TextureMapping2D(const MappingParameters& p, const Transform& textureToWorld)

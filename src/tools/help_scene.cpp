@@ -41,14 +41,6 @@ const PluginInfo& findPlugin(const RegistryInfo& registry, const std::string& na
                                didYouMean(name, registry.names())));
 }
 
-std::string limits(const ParameterDeclaration& d) {
-  if (!d.choices.empty()) return fmt::format("one of {}", fmt::join(d.choices, ", "));
-  const bool low = d.min > -1e300, high = d.max < 1e300;
-  if (low && high) return fmt::format("{} to {}", d.min, d.max);
-  if (low) return fmt::format("at least {}", d.min);
-  return high ? fmt::format("at most {}", d.max) : "";
-}
-
 std::string defaultText(const ParameterDeclaration& d) {
   return d.defaultText.empty() && d.target == TargetType::String ? "\"\"" : d.defaultText;
 }
@@ -78,9 +70,8 @@ void printPlugin(const RegistryInfo& registry, const PluginInfo& plugin) {
       fmt::print("\n  {}\n      no effect: {}\n", d.name, d.ignoredBecause);
       continue;
     }
-    const std::string range = limits(d);
-    fmt::print("\n  {}\n      {}\n      {}{}; default {}\n", withAliases(d.name, d.aliases), d.doc,
-               d.typeText(), range.empty() ? "" : ", " + range, defaultText(d));
+    fmt::print("\n  {}\n      {}\n      {}, {}; default {}\n", withAliases(d.name, d.aliases),
+               d.doc, d.typeText(), d.rangeText(), defaultText(d));
   }
 }
 
@@ -106,7 +97,7 @@ std::string pluginReference(const PluginInfo& plugin) {
       text += fmt::format("| {} | | | | No effect: {} |\n", name, cell(d.ignoredBecause));
     else
       text += fmt::format("| {} | {} | {} | {} | {} |\n", name, cell(d.typeText()),
-                          cell(defaultText(d)), cell(limits(d)), cell(d.doc));
+                          cell(defaultText(d)), cell(d.rangeText()), cell(d.doc));
   }
   return text + "\n";
 }

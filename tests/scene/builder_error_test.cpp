@@ -61,6 +61,23 @@ TEST(BuilderErrors, UnknownNames) {
   for (const auto& [text, error] : cases) EXPECT_EQ(buildError(text), error) << text;
 }
 
+TEST(BuilderErrors, ValuesOutOfRange) {
+  const std::string t = kTriangle, medium = "MakeNamedMedium \"m\" \"string type\" ";
+  const std::string inside = " MediumInterface \"m\" \"\" " + t;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {world(medium + "\"homogeneous\" \"rgb sigma_a\" [0 -1 0]" + inside),
+       "3:49: parameter \"sigma_a\": -1 is below 0"},
+      {world(medium + "\"heterogeneous\" \"integer nx\" 2 \"float density\" [1 -2]" + inside),
+       "3:66: parameter \"density\": -2 is below 0"},
+      {world("Material \"glass\" \"float eta\" 0 " + t),
+       "3:18: parameter \"eta\": 0 is outside [0.01, 100]"},
+      // pbrt-v3 takes these as the nearest end.
+      {world("Material \"plastic\" \"rgb Kd\" [-1 0 0] " + t), ""},
+      {world("Shape \"disk\" \"float phimax\" 400"), ""},
+  };
+  for (const auto& [text, error] : cases) EXPECT_EQ(buildError(text), error) << text;
+}
+
 /// Of several faults the first of the file is reported, whatever thread finds it.
 TEST(BuilderErrors, ReportsTheFirstFault) {
   std::string content;

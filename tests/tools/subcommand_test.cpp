@@ -119,6 +119,7 @@ TEST_F(Subcommand, HelpSceneKnowsEveryPlugin) {
         EXPECT_TRUE(d.doc.ends_with('.')) << d.doc;
         EXPECT_FALSE(d.typeText().empty());
         EXPECT_TRUE(!d.defaultText.empty() || d.target == TargetType::String);
+        EXPECT_FALSE(d.rangeText().empty()) << "declare a range, choices or any()";
         EXPECT_LE(d.min, d.max);
       }
     }
