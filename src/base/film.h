@@ -42,6 +42,7 @@ class Film {
   virtual void openLightImage(double typical) = 0;
   /// Adds `value` about a place on the film (in pixels, may lie beyond the image), spread by the
   /// filter. From any thread. False, and nothing is added, if it is not finite or negative.
+  static constexpr double kLightImagePixelBytes = 24;  ///< that it takes of memory
   virtual bool addSplat(const Vec2& film, const Rgb& value) = 0;
   /// Counts paths whose splats are in the light image: a pixel's sum of splats is divided by their
   /// number in relation to the number of pixels in bounds(), so that a splat's value is what a

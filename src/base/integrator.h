@@ -86,6 +86,9 @@ class Integrator {
   /// Not empty: why the merged parts of a render are not the bits of the one render, though as
   /// unbiased.
   virtual std::string_view partsDiffer() const { return {}; }
+  /// Bytes that render() takes beside the film's samples, about: they are held against what there
+  /// is before it begins.
+  virtual double memory(const Film& film) const { return (void)film, 0; }
   /// False if the light image is all there is. Then nothing is known of a pixel alone: no samples
   /// to replay, no noise, no AOVs.
   virtual bool samplesPixels() const { return true; }

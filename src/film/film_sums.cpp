@@ -50,9 +50,8 @@ FilmSums::FilmSums(const FilmFrame& frame, const Filter* filter)
       aovs_(frame.aovs, pixels_.size()),
       lightImage_(frame.bounds, filter) {}
 
-double FilmSums::memory(const FilmFrame& frame, bool lightImage) {
-  const size_t pixel = sizeof(PixelSums) + AovSums::sumsPerPixel(frame.aovs) * sizeof(WideSum) +
-                       (lightImage ? 3 * sizeof(int64_t) : 0);
+double FilmSums::memory(const FilmFrame& frame) {
+  const size_t pixel = sizeof(PixelSums) + AovSums::sumsPerPixel(frame.aovs) * sizeof(WideSum);
   return static_cast<double>(frame.bounds.area()) * static_cast<double>(pixel);
 }
 
@@ -147,7 +146,7 @@ std::unique_ptr<FilmSums> FilmSums::decode(std::string_view bytes) {
     constexpr int kMost = 1 << 20;
     return b.min.x >= 0 && b.min.y >= 0 && b.max.x <= kMost && b.max.y <= kMost && b.area() > 0;
   };
-  if (!frame || !isSane(frame->bounds) || memory(*frame, false) > static_cast<double>(bytes.size()))
+  if (!frame || !isSane(frame->bounds) || memory(*frame) > static_cast<double>(bytes.size()))
     return nullptr;
   auto film = std::make_unique<FilmSums>(*frame);
   if (!film->restore(bytes)) film.reset();

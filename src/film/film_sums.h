@@ -23,8 +23,8 @@ class FilmSums {
 
   const FilmFrame& frame() const { return frame_; }
   size_t index(const Int2& pixel) const;
-  /// In bytes, of a film with this frame, without a light image; and with one.
-  static double memory(const FilmFrame& frame, bool lightImage);
+  /// In bytes, of a film with this frame, without a light image.
+  static double memory(const FilmFrame& frame);
 
   /// Adds a sample's colour times its weight, and its luminance likewise, to a pixel. Values are
   /// stored whole, for a preview may read them meanwhile.

@@ -167,15 +167,6 @@ AovSet aovSet(const std::vector<std::string>& lists, SourceLocation where) {
   return set;
 }
 
-/// A mistyped resolution should be an error at once, not a machine that swaps to death.
-void checkMemory(const PixelBounds& bounds, AovSet aovs, SourceLocation where) {
-  const double bytes = FilmSums::memory({{}, bounds, aovs}, false);
-  if (bytes > availableMemory())
-    throw SceneError(where, fmt::format("{} x {} pixels need {:.0f} GB of memory, more than there "
-                                        "is; render a smaller image or crop window",
-                                        bounds.size().x, bounds.size().y, bytes * 1e-9));
-}
-
 std::unique_ptr<Film> create(const ImageFilmParameters& p, const ParameterSet& set,
                              const FilmContext& context) {
   const auto at = [&](const char* name) {
@@ -192,7 +183,10 @@ std::unique_ptr<Film> create(const ImageFilmParameters& p, const ParameterSet& s
                     p.filename));
   if (!context.filter) throw SceneError(context.location, "a film needs a pixel filter");
   const AovSet aovs = aovSet(p.aovs, at("aovs"));
-  checkMemory(bounds, aovs, at("xresolution"));
+  // A mistyped resolution should be an error at once, not a machine that swaps to death.
+  expectMemory(FilmSums::memory({{}, bounds, aovs}),
+               fmt::format("an image of {} x {} pixels", bounds.size().x, bounds.size().y),
+               at("xresolution"));
   try {
     return std::make_unique<ImageFilm>(p, bounds, aovs, std::move(context.filter));
   } catch (const std::bad_alloc&) {

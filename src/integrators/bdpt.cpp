@@ -101,6 +101,9 @@ class BdptIntegrator final : public Integrator {
     return renderPasses(context, pixels, estimator);
   }
   bool rendersMedia() const override { return true; }
+  double memory(const Film& film) const override {
+    return Film::kLightImagePixelBytes * static_cast<double>(film.bounds().area());
+  }
 
  private:
   const BdptParameters parameters_;

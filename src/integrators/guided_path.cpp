@@ -64,6 +64,8 @@ class GuidedPathIntegrator final : public Integrator {
     return samples;
   }
   bool rendersMedia() const override { return true; }
+  /// Of what a pass leaves to be learned from, twice while it is sorted.
+  double memory(const Film&) const override { return 2 * sizeof(GuideSample) * kSamplesPerPass; }
   std::string_view partsDiffer() const override {
     return "each part learns from its own samples alone";
   }

@@ -37,6 +37,10 @@ class MltIntegrator final : public Integrator {
     return MltRenderer(context, distribution_.get(), settings_).render();
   }
   bool rendersMedia() const override { return true; }
+  double memory(const Film& film) const override {
+    return Film::kLightImagePixelBytes * static_cast<double>(film.bounds().area()) +
+           MltRenderer::memory(settings_);
+  }
   bool resumes() const override { return false; }
   std::string_view partsDiffer() const override {
     return "each part has chains of its own, from the same bootstrap paths";

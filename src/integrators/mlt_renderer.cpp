@@ -48,6 +48,13 @@ MltRenderer::MltRenderer(RenderContext& context, const LightDistribution* distri
       paths_(context, distribution, 1 / std::sqrt(static_cast<float>(settings.mutationsPerPixel))),
       pixels_(static_cast<uint64_t>(context.film.bounds().area())) {}
 
+double MltRenderer::memory(const MltSettings& s) {
+  const double bootstrap = static_cast<double>(s.bootstrapSamples) * (s.maxDepth + 1);
+  const auto numbers = static_cast<double>(MltPaths::dimensions(s.maxDepth));
+  return sizeof(double) * bootstrap +
+         static_cast<double>(s.chains) * (sizeof(Chain) + 2 * sizeof(float) * numbers);
+}
+
 uint64_t MltRenderer::render() {
   bootstrap();
   // Nothing ends a render without limit if all is black.

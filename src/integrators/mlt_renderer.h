@@ -28,6 +28,8 @@ class MltRenderer final : public PassLoop {
   MltRenderer(RenderContext& context, const LightDistribution* distribution,
               const MltSettings& settings);
 
+  /// Of the bootstrap and of chains as long as they can be, in bytes.
+  static double memory(const MltSettings& settings);
   /// Returns the number of mutations per pixel.
   uint64_t render();
 

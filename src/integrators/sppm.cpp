@@ -27,6 +27,9 @@ constexpr double kKept = 2. / 3;
 /// Paths from lights that one thread traces at a time.
 constexpr size_t kPhotonChunk = 4096;
 
+/// Photons that a path leaves on average, for an estimate of memory.
+constexpr int kUsualBounces = 3;
+
 struct SppmParameters {
   int maxDepth = 5, iterations = 64, photons = -1;
   float radius = 1;
@@ -251,6 +254,13 @@ class SppmIntegrator final : public Integrator {
     if (o.sampleCount == 0 && !(o.seconds > 0) && !(o.noise > 0))
       o.sampleCount = static_cast<uint64_t>(parameters_.iterations);
     return renderPasses(own, pixels, SppmEstimator(own, parameters_, distribution_.get()));
+  }
+  /// Of the photons: in pieces, as a whole and as a map.
+  double memory(const Film& film) const override {
+    const double paths =
+        parameters_.photons > 0 ? parameters_.photons : static_cast<double>(film.bounds().area());
+    const double each = std::min(parameters_.maxDepth, kUsualBounces);
+    return 3 * sizeof(Photon) * paths * each;
   }
 
  private:

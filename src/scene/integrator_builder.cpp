@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The integrator, and the light distribution that its parameters describe.
+#include "core/memory.h"
 #include "integrators/registry.h"
 #include "lightdistributions/registry.h"
 #include "scene/build_state.h"
@@ -81,6 +82,8 @@ void buildIntegrator(BuildState& state, const IntegratorChoice& choice) {
   };
   state.job.integrator = choice.plugin->create(
       set, {state.context(set.location), scene, lightDistribution, state.options.seed});
+  expectMemory(state.job.integrator->memory(*state.job.film),
+               "integrator \"" + choice.plugin->name + "\"", set.location);
   if (!scene.media.empty() && !state.job.integrator->rendersMedia())
     state.diagnostics.warn(set.location, "integrator \"" + choice.plugin->name +
                                              "\" does not render participating media: they are "

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes and lights, in the order that lets each know what it needs: shapes, area lights, the
 // scene's bounds, the lights' power, their numbers, and the ray tracer's scene at last.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
 
 #include "accelerators/embree_geometry.h"
+#include "core/memory.h"
 #include "scene/build_state.h"
 #include "scene/light_builder.h"
 #include "scene/medium_builder.h"
@@ -114,6 +117,28 @@ void reportSizes(const BuildState& state, const BuiltShapes& built, const Geomet
   set("lights", scene.lightTable.size());
 }
 
+/// Embree takes about so much while it builds, beside the meshes themselves.
+constexpr double kTriangleBytes = 100, kInstanceBytes = 600;
+
+/// Names the largest shape, though all of them count.
+void expectGeometryMemory(const BuiltShapes& built, const GeometryDescription& g) {
+  size_t triangles = 0, most = 0;
+  SourceLocation where;
+  for (const BuiltShape& s : built.shapes) {
+    const size_t count = s.primitive.shape->triangles().triangleCount;
+    triangles += count;
+    if (count <= most) continue;
+    most = count;
+    where = s.description->plugin.parameters.location;
+  }
+  expectMemory(kTriangleBytes * static_cast<double>(triangles) +
+                   kInstanceBytes * static_cast<double>(g.instances.size()),
+               fmt::format("the ray tracing structure of {} triangles (of this shape: {}) and {} "
+                           "instances",
+                           triangles, most, g.instances.size()),
+               where);
+}
+
 }  // namespace
 
 void buildWorld(BuildState& state) {
@@ -126,6 +151,7 @@ void buildWorld(BuildState& state) {
   buildLights(state, built, sceneBounds(built, state));
   GeometryDescription geometry = GeometryDescriber(state).describe(built);
   reportSizes(state, built, geometry);
+  expectGeometryMemory(built, geometry);
   scene.geometry = makeEmbreeGeometry(std::move(geometry));
   scene.bounds = scene.geometry->bounds();
   if (scene.bounds.empty()) scene.bounds = Bounds3(Vec3(0));

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/memory.h"
 #include "shapes/registry.h"
 #include "shapes/triangle_mesh.h"
 
@@ -213,6 +214,9 @@ void checkControlMesh(const LoopSubdivParameters& p, size_t triangles,
   if (refined > kMostTriangles)
     fail(fmt::format("{} levels would make {:.3g} triangles; the most is {:.3g}", p.levels, refined,
                      kMostTriangles));
+  constexpr double kTriangleBytes = 250;  // measured, while OpenSubdiv refines
+  expectMemory(kTriangleBytes * refined, fmt::format("subdivision into {:.3g} triangles", refined),
+               context.location);
 }
 
 std::unique_ptr<Shape> create(const LoopSubdivParameters& p, const ShapeContext& context) {

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "tools/commands.h"
 #include "tools/messages.h"
 
@@ -59,7 +60,9 @@ int runCommandLine(int argc, char** argv) {
   } catch (const SceneError& e) {
     return fail(kSceneError, e.what());
   } catch (const std::bad_alloc&) {
-    return fail(kIoError, "out of memory");
+    const MemoryLimit left = memoryLimit();
+    return fail(kIoError, fmt::format("out of memory, with {} in use; the limit is {} more ({})",
+                                      memoryText(usedMemory()), memoryText(left.bytes), left.name));
   } catch (const std::exception& e) {
     return fail(kIoError, e.what());
   }

@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
+#include "tools/memory_estimate.h"
 #include "tools/messages.h"
 #include "tools/outputs.h"
 #include "tools/pixel_probe.h"
@@ -260,12 +261,14 @@ int RenderSession::run() {
       if (settings_.samples || !settings_.checkpoint.empty())
         saved_.emplace(settings_, *job_, files_);
       if (!settings_.checkpoint.empty()) checkWritable(settings_.checkpoint);
+      statistics_.set("memory", "estimated bytes", expectRenderMemory(*job_, saved_.has_value()));
       renderImage(outputs);
       if (!settings_.quiet)
         say("{}: {}\n", scene_,
             part_.empty() ? fmt::to_string(fmt::join(outputs.paths(), ", ")) : part_);
     }
     report_.warnings = diagnostics_.warnings();
+    statistics_.set("memory", "peak bytes", peakMemory());
     if (!settings_.quiet) say("{}", summary(report_, statistics_, settings_.verbose));
     if (!settings_.statistics.empty()) writeStatistics(settings_.statistics, report_, statistics_);
     return report_.interrupted ? kInterrupted : kDone;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "tools/progress.h"
 
 namespace lampyris {
@@ -47,6 +48,8 @@ std::string summary(const RunReport& report, const Statistics& s, bool verbose) 
     text += fmt::format(", {} samples/s, {} rays/s",
                         formatCount(s.value("render", "camera paths per second")),
                         formatCount(s.value("render", "rays per second")));
+  if (const double peak = s.value("memory", "peak bytes"); peak > 0)
+    text += fmt::format(", {}", memoryText(peak));
   if (std::isfinite(report.noise) && report.noise > 0)
     text += fmt::format(", noise {:.2f} %", 100 * report.noise);
   if (report.warnings > 0)

@@ -82,7 +82,8 @@ TEST_F(HostileInput, NumbersThatCannotBe) {
   expectError(
       "Film \"image\" \"integer xresolution\" 1000000 \"integer yresolution\" 1000000\n"
       "WorldBegin\nWorldEnd\n",
-      "a.pbrt:1:14: error: 1000000 x 1000000 pixels need 40000 GB of memory");
+      "a.pbrt:1:14: error: an image of 1000000 x 1000000 pixels needs about 59604.6 GiB of memory; "
+      "the limit is ");
 }
 
 /// What has no area gives no light, and no error.
