@@ -67,6 +67,7 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
 
 void bounds(const RTCBoundsFunctionArguments* args) {
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
+  shapes.ready.take();
   const UserShapes::Element e = shapes.elements[args->primID];
   const Bounds3 b = shapes.primitives[e.primitive].shape->bounds(e.element);
   // Embree's box test is in single precision, the shapes' intersections are not.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "core/hand_over.h"
 
 namespace lampyris::embree {
 
@@ -20,6 +21,7 @@ struct UserShapes {
   };
   const std::vector<Primitive>& primitives;
   std::vector<Element> elements{};
+  HandOver ready{};  ///< to the threads on which Embree asks for bounds
 };
 
 /// Of a UserShapes.

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/hand_over.h"
+
 namespace lampyris {
 
 namespace tbb = oneapi::tbb;
@@ -36,14 +38,29 @@ void parallelFor(size_t count, size_t grain, const std::function<void(size_t, si
   const size_t largest = 2 * std::clamp<size_t>(grain, 1, SIZE_MAX / 2) - 1;
   // Isolated: while it waits, a thread that holds a lock must take nothing of an outer loop, which
   // may want the same lock.
+  const HandOver begun, done;
+  begun.give();
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, largest),
-                      [&body](const tbb::blocked_range<size_t>& r) { body(r.begin(), r.end()); });
+                      [&](const tbb::blocked_range<size_t>& r) {
+                        begun.take();
+                        body(r.begin(), r.end());
+                        done.give();
+                      });
   });
+  done.take();
 }
 
 void parallelInvoke(const std::function<void()>& a, const std::function<void()>& b) {
-  tbb::parallel_invoke(a, b);
+  const HandOver begun, done;
+  begun.give();
+  const auto run = [&](const std::function<void()>& f) {
+    begun.take();
+    f();
+    done.give();
+  };
+  tbb::parallel_invoke([&] { run(a); }, [&] { run(b); });
+  done.take();
 }
 
 }  // namespace lampyris
