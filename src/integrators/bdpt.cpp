@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/bidirectional.h"
 #include "integrators/common_parameters.h"
+#include "integrators/pixel_integrator.h"
 
 namespace lampyris {
 
@@ -85,42 +86,28 @@ double BdptEstimator::typicalSample(const RenderContext& context, const PixelBou
   return typical > 0 && std::isfinite(typical) ? typical : 1;
 }
 
-class BdptIntegrator final : public Integrator {
+class BdptIntegrator final : public PixelIntegrator<BdptParameters> {
  public:
-  BdptIntegrator(BdptParameters parameters, SourceLocation location,
-                 std::unique_ptr<LightDistribution> distribution)
-      : parameters_(std::move(parameters)),
-        location_(location),
-        distribution_(std::move(distribution)) {}
-
-  uint64_t render(RenderContext& context) const override {
-    const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
-    const BdptEstimator estimator(context, parameters_.maxDepth, distribution_.get(), pixels);
-    if (context.camera.projects())
-      context.film.openLightImage(estimator.typicalSample(context, pixels));
-    return renderPasses(context, pixels, estimator);
-  }
+  using PixelIntegrator::PixelIntegrator;
   bool rendersMedia() const override { return true; }
   double memory(const Film& film) const override {
     return Film::kLightImagePixelBytes * static_cast<double>(film.bounds().area());
   }
 
  private:
-  const BdptParameters parameters_;
-  const SourceLocation location_;
-  const std::unique_ptr<LightDistribution> distribution_;
+  uint64_t renderPixels(RenderContext& context, const PixelBounds& pixels) const override {
+    const BdptEstimator estimator(context, parameters_.maxDepth, distribution_.get(), pixels);
+    if (context.camera.projects())
+      context.film.openLightImage(estimator.typicalSample(context, pixels));
+    return renderPasses(context, pixels, estimator);
+  }
 };
-
-std::unique_ptr<Integrator> create(const BdptParameters& p, const IntegratorContext& context) {
-  return std::make_unique<BdptIntegrator>(p, context.location,
-                                          context.lightDistribution(p.lightSampler));
-}
 
 }  // namespace
 
 IntegratorRegistry::Entry bdptPlugin() {
   return makePlugin("bdpt", "Bidirectional path tracing: paths from the camera and from lights.",
-                    create);
+                    createPixelIntegrator<BdptIntegrator, BdptParameters>);
 }
 
 }  // namespace lampyris

@@ -9,6 +9,7 @@
 #include "guiding/guides.h"
 #include "integrators/common_parameters.h"
 #include "integrators/guide_photons.h"
+#include "integrators/pixel_integrator.h"
 
 namespace lampyris {
 
@@ -21,14 +22,13 @@ constexpr int kPassesBeforeRetiring = 5;
 /// Until a first pass has shown how many a path leaves.
 constexpr double kFirstGuess = 8;
 
-struct GuidedPathParameters {
-  PathSettings settings;
+struct GuidedPathParameters : PathSettings {
   std::string lightSampler;
   GuideSettings guide;
   float ownShare = 0.5f;
 
   void declare(Declaration& d) {
-    settings.declare(d);
+    PathSettings::declare(d);
     declareLightSampler(d, lightSampler);
     guide.declare(d);
     d.add("bsdffraction", ownShare,
@@ -37,32 +37,9 @@ struct GuidedPathParameters {
   }
 };
 
-class GuidedPathIntegrator final : public Integrator {
+class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> {
  public:
-  GuidedPathIntegrator(const GuidedPathParameters& parameters,
-                       std::unique_ptr<LightDistribution> distribution)
-      : parameters_(parameters), distribution_(std::move(distribution)) {}
-
-  uint64_t render(RenderContext& context) const override {
-    const PathSettings& settings = parameters_.settings;
-    const PixelBounds pixels =
-        renderedPixels(context.film, settings.pixelBounds, settings.location);
-    const auto guide = makeGuide(parameters_.guide, context.scene, [&](int count) {
-      return traceGuidePhotons(context.scene, count, settings.maxDepth);
-    });
-    Guidance guidance;
-    guidance.guide = guide.get();
-    guidance.ownShare = parameters_.ownShare;
-    const VolumePathEstimator estimator(context.scene, settings, distribution_.get(), guidance);
-    if (!guide) return renderPasses(context, pixels, estimator);
-    GuideTrainer trainer(*guide, guidance, pixels.area());
-    if (context.options.firstSample > 0 && !trainer.restore(context.options.learned))
-      throw SceneError(settings.location,
-                       "the checkpoint does not hold what this guide has learned");
-    const uint64_t samples = renderPasses(context, pixels, estimator, &trainer);
-    trainer.report(context.statistics);
-    return samples;
-  }
+  using PixelIntegrator::PixelIntegrator;
   bool rendersMedia() const override { return true; }
   /// Of what a pass leaves to be learned from, twice while it is sorted.
   double memory(const Film&) const override { return 2 * sizeof(GuideSample) * kSamplesPerPass; }
@@ -71,17 +48,23 @@ class GuidedPathIntegrator final : public Integrator {
   }
 
  private:
-  const GuidedPathParameters parameters_;
-  const std::unique_ptr<LightDistribution> distribution_;
+  uint64_t renderPixels(RenderContext& context, const PixelBounds& pixels) const override {
+    const auto guide = makeGuide(parameters_.guide, context.scene, [&](int count) {
+      return traceGuidePhotons(context.scene, count, parameters_.maxDepth);
+    });
+    Guidance guidance;
+    guidance.guide = guide.get();
+    guidance.ownShare = parameters_.ownShare;
+    const VolumePathEstimator estimator(context.scene, parameters_, distribution_.get(), guidance);
+    if (!guide) return renderPasses(context, pixels, estimator);
+    GuideTrainer trainer(*guide, guidance, pixels.area());
+    if (context.options.firstSample > 0 && !trainer.restore(context.options.learned))
+      throw SceneError(location_, "the checkpoint does not hold what this guide has learned");
+    const uint64_t samples = renderPasses(context, pixels, estimator, &trainer);
+    trainer.report(context.statistics);
+    return samples;
+  }
 };
-
-std::unique_ptr<Integrator> create(const GuidedPathParameters& p,
-                                   const IntegratorContext& context) {
-  GuidedPathParameters parameters = p;
-  parameters.settings.location = context.location;
-  return std::make_unique<GuidedPathIntegrator>(parameters,
-                                                context.lightDistribution(p.lightSampler));
-}
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -156,7 +139,8 @@ void GuideTrainer::report(Statistics& statistics) const {
 
 IntegratorRegistry::Entry guidedPathPlugin() {
   return makePlugin("guidedpath",
-                    "Path tracing, with media, guided by what earlier passes have found.", create);
+                    "Path tracing, with media, guided by what earlier passes have found.",
+                    createPixelIntegrator<GuidedPathIntegrator, GuidedPathParameters>);
 }
 
 }  // namespace lampyris

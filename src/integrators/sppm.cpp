@@ -15,6 +15,7 @@
 #include "integrators/common_parameters.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/photon_map.h"
+#include "integrators/pixel_integrator.h"
 #include "integrators/ray_surface.h"
 #include "integrators/subpath_tracer.h"
 
@@ -238,23 +239,9 @@ Rgb SppmEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   return path.radiance;
 }
 
-class SppmIntegrator final : public Integrator {
+class SppmIntegrator final : public PixelIntegrator<SppmParameters> {
  public:
-  SppmIntegrator(SppmParameters parameters, SourceLocation location,
-                 std::unique_ptr<LightDistribution> distribution)
-      : parameters_(std::move(parameters)),
-        location_(location),
-        distribution_(std::move(distribution)) {}
-
-  uint64_t render(RenderContext& context) const override {
-    const PixelBounds pixels = renderedPixels(context.film, parameters_.pixelBounds, location_);
-    RenderContext own = context;
-    RenderOptions& o = own.options;
-    // As in pbrt-v3 the sampler's number does not count.
-    if (o.sampleCount == 0 && !(o.seconds > 0) && !(o.noise > 0))
-      o.sampleCount = static_cast<uint64_t>(parameters_.iterations);
-    return renderPasses(own, pixels, SppmEstimator(own, parameters_, distribution_.get()));
-  }
+  using PixelIntegrator::PixelIntegrator;
   /// Of the photons: in pieces, as a whole and as a map.
   double memory(const Film& film) const override {
     const double paths =
@@ -264,20 +251,21 @@ class SppmIntegrator final : public Integrator {
   }
 
  private:
-  const SppmParameters parameters_;
-  const SourceLocation location_;
-  const std::unique_ptr<LightDistribution> distribution_;
+  uint64_t renderPixels(RenderContext& context, const PixelBounds& pixels) const override {
+    RenderContext own = context;
+    RenderOptions& o = own.options;
+    // As in pbrt-v3 the sampler's number does not count.
+    if (o.sampleCount == 0 && !(o.seconds > 0) && !(o.noise > 0))
+      o.sampleCount = static_cast<uint64_t>(parameters_.iterations);
+    return renderPasses(own, pixels, SppmEstimator(own, parameters_, distribution_.get()));
+  }
 };
-
-std::unique_ptr<Integrator> create(const SppmParameters& p, const IntegratorContext& context) {
-  return std::make_unique<SppmIntegrator>(p, context.location,
-                                          context.lightDistribution(p.lightSampler));
-}
 
 }  // namespace
 
 IntegratorRegistry::Entry sppmPlugin() {
-  return makePlugin("sppm", "Stochastic progressive photon mapping.", create);
+  return makePlugin("sppm", "Stochastic progressive photon mapping.",
+                    createPixelIntegrator<SppmIntegrator, SppmParameters>);
 }
 
 }  // namespace lampyris

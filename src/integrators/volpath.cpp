@@ -1,50 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/common_parameters.h"
+#include "integrators/pixel_integrator.h"
 #include "integrators/volume_path.h"
 
 namespace lampyris {
 
 namespace {
 
-struct VolpathParameters {
-  PathSettings settings;
+struct VolpathParameters : PathSettings {
   std::string lightSampler;
 
   void declare(Declaration& d) {
-    settings.declare(d);
+    PathSettings::declare(d);
     declareLightSampler(d, lightSampler);
   }
 };
 
-class VolpathIntegrator final : public Integrator {
+class VolpathIntegrator final : public PixelIntegrator<VolpathParameters> {
  public:
-  VolpathIntegrator(const PathSettings& settings, std::unique_ptr<LightDistribution> distribution)
-      : settings_(settings), distribution_(std::move(distribution)) {}
-
-  uint64_t render(RenderContext& context) const override {
-    const PixelBounds pixels =
-        renderedPixels(context.film, settings_.pixelBounds, settings_.location);
-    const Guidance none;
-    const VolumePathEstimator estimator(context.scene, settings_, distribution_.get(), none);
-    return renderPasses(context, pixels, estimator);
-  }
+  using PixelIntegrator::PixelIntegrator;
   bool rendersMedia() const override { return true; }
 
  private:
-  const PathSettings settings_;
-  const std::unique_ptr<LightDistribution> distribution_;
+  uint64_t renderPixels(RenderContext& context, const PixelBounds& pixels) const override {
+    const Guidance none;
+    const VolumePathEstimator estimator(context.scene, parameters_, distribution_.get(), none);
+    return renderPasses(context, pixels, estimator);
+  }
 };
-
-std::unique_ptr<Integrator> create(const VolpathParameters& p, const IntegratorContext& context) {
-  PathSettings settings = p.settings;
-  settings.location = context.location;
-  return std::make_unique<VolpathIntegrator>(settings, context.lightDistribution(p.lightSampler));
-}
 
 }  // namespace
 
 IntegratorRegistry::Entry volpathPlugin() {
-  return makePlugin("volpath", "Path tracing through participating media.", create);
+  return makePlugin("volpath", "Path tracing through participating media.",
+                    createPixelIntegrator<VolpathIntegrator, VolpathParameters>);
 }
 
 }  // namespace lampyris
