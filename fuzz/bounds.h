@@ -6,18 +6,15 @@
 
 namespace lampyris::fuzz {
 
-/// While it lives, the process aborts with a message where more than `bytes` are allocated at a
-/// time beyond what was at its beginning, by all threads together; and in the end where the process
-/// has computed for more than a second (which a busy machine does not lengthen).
+/// While it lives, the process aborts with a stack trace where more than `bytes` are allocated at a
+/// time beyond what was at its beginning, by all threads together; and where the process computes
+/// for longer than a second: processor time, which a busy machine does not lengthen.
 class Bounds {
  public:
   explicit Bounds(size_t bytes);
   ~Bounds();
   Bounds(const Bounds&) = delete;
   Bounds& operator=(const Bounds&) = delete;
-
- private:
-  double start_;
 };
 
 }  // namespace lampyris::fuzz
