@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "materials/registry.h"
 #include "scene/plugin_lookup.h"
 #include "scene/tokenizer.h"
@@ -21,6 +23,16 @@ namespace {
                                         kind, inQuotes(name)));
   throw SceneError(where, fmt::format("unknown {} {}{}{}", kind, inQuotes(name), hint,
                                       *hint ? "" : didYouMean(name, names.names())));
+}
+
+/// A few textures that each name another one twice would be evaluated without end.
+void checkEvaluations(size_t evaluations, SourceLocation where) {
+  constexpr size_t kMost = 10'000;
+  if (evaluations > kMost)
+    throw SceneError(where,
+                     fmt::format("one value of this texture takes {} values of textures that "
+                                 "it refers to, more than {}",
+                                 evaluations - 1, kMost));
 }
 
 /// A material's parameters that a shape may not replace, for they are the shape's own.
@@ -84,7 +96,10 @@ T* AppearanceBuilder::buildTexture(const R& registry, uint32_t index,
                                    std::vector<Built<T>>& built) {
   const std::lock_guard lock(mutex_);
   Built<T>& memo = built[index];
-  if (memo.done) return memo.object;
+  if (memo.done) {
+    evaluations_ += memo.evaluations;
+    return memo.object;
+  }
   const TextureDefinition& d = state_.description.textures[index];
   const SourceLocation where = d.plugin.parameters.location;
   const DepthGuard guard(depth_, where);
@@ -93,9 +108,12 @@ T* AppearanceBuilder::buildTexture(const R& registry, uint32_t index,
   const Schema* const schemas[] = {&plugin.schema};
   checkParameters(set, schemas, registry, plugin.name, state_.diagnostics);
   const Resolver resolver(*this, d.order);
+  const size_t outer = std::exchange(evaluations_, 1);
   auto texture = plugin.create(
       set, {state_.context(where), resolver, state_.images, state_.transform(d.transform, where)});
-  memo = {owner.emplace_back(std::move(texture)).get(), true};
+  checkEvaluations(evaluations_, where);
+  memo = {owner.emplace_back(std::move(texture)).get(), true, evaluations_};
+  evaluations_ += outer;
   return memo.object;
 }
 

@@ -40,6 +40,7 @@ class AppearanceBuilder {
   struct Built {
     T* object = nullptr;
     bool done = false;
+    size_t evaluations = 0;  ///< of textures, for one value of a texture
   };
   const Material* material(uint32_t index);
   const Material* create(const MaterialRegistry::Entry& plugin, const ParameterSet& set,
@@ -55,6 +56,7 @@ class AppearanceBuilder {
   BuildState& state_;
   std::recursive_mutex mutex_;
   int depth_ = 0;
+  size_t evaluations_ = 0;  ///< that the texture which is being built needs
   std::vector<Built<FloatTexture>> floatTextures_;
   std::vector<Built<SpectrumTexture>> spectrumTextures_;
   std::vector<Built<const Material>> materials_;

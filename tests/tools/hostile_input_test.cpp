@@ -67,6 +67,16 @@ TEST_F(HostileInput, NestedBlocks) {
   }
 }
 
+/// Each texture names the one before it twice: 2³⁹ values for one.
+TEST_F(HostileInput, TexturesOfTextures) {
+  std::string text = "Texture \"t0\" \"spectrum\" \"constant\"\n";
+  for (int i = 1; i < 40; ++i)
+    text += "Texture \"t" + std::to_string(i) + "\" \"spectrum\" \"scale\" \"texture tex1\" \"t" +
+            std::to_string(i - 1) + "\" \"texture tex2\" \"t" + std::to_string(i - 1) + "\"\n";
+  expectError(world(text + "Material \"matte\" \"texture Kd\" \"t39\"\nShape \"sphere\""),
+              "a.pbrt:17:1: error: one value of this texture takes 16382 values of textures");
+}
+
 TEST_F(HostileInput, NumbersThatCannotBe) {
   const auto triangle = [](const std::string& indices, const std::string& point) {
     return world("Shape \"trianglemesh\" \"integer indices\" [" + indices +
