@@ -32,7 +32,8 @@ class DensityGrid {
   }
   float& boundAt(int x, int y, int z) { return bounds_[boundIndex(x, y, z)]; }
   size_t boundIndex(int x, int y, int z) const {
-    return static_cast<size_t>((z * coarse_ + y) * coarse_ + x);
+    const auto n = static_cast<size_t>(coarse_);
+    return (static_cast<size_t>(z) * n + static_cast<size_t>(y)) * n + static_cast<size_t>(x);
   }
   void makeBounds();
 

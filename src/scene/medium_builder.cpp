@@ -25,6 +25,7 @@ const Medium* MediumBuilder::medium(std::string_view name, const MediumInterface
     return built_[i];
   }
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const MediumDefinition& m : all) names.emplace_back(m.name);
   throw SceneError(use.location, fmt::format("medium {} is not defined before its use{}",
                                              inQuotes(name), didYouMean(name, names)));
