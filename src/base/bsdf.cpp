@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/math.h"
+#include "core/rejections.h"
 
 namespace lampyris {
 
@@ -174,7 +175,11 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& woWorld, float uc, const Vec2
       if (side.allows(l)) out.f += l.f(wo, s->wi);
     }
   }
-  if (out.f.isBlack() || !(out.pdf > 0) || !std::isfinite(out.pdf)) return std::nullopt;
+  if (out.f.isBlack()) return std::nullopt;
+  if (!(out.pdf > 0) || !std::isfinite(out.pdf)) {
+    countRejection(Rejection::ScatteringDensity);
+    return std::nullopt;
+  }
   return out;
 }
 

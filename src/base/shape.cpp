@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shape.h"
 
+#include "core/rejections.h"
+
 namespace lampyris {
 
 std::optional<ShapeSample> Shape::sampleSolidAngle(uint32_t element, const Vec3& from,
@@ -8,8 +10,10 @@ std::optional<ShapeSample> Shape::sampleSolidAngle(uint32_t element, const Vec3&
   auto s = sampleArea(element, u);
   if (!s) return s;
   s->pdf = pdfSolidAngle(element, from, s->p, s->n);
-  if (!(s->pdf > 0) || !std::isfinite(s->pdf)) return std::nullopt;
-  return s;
+  if (s->pdf > 0 && std::isfinite(s->pdf)) return s;
+  // Seen edge on there is nothing to draw.
+  if (dot(s->n, s->p - from) != 0) countRejection(Rejection::LightDensity);
+  return std::nullopt;
 }
 
 float Shape::pdfArea(uint32_t element, const Vec3& n) const {

@@ -12,6 +12,7 @@
 #include "core/image.h"
 #include "core/math.h"
 #include "core/memory.h"
+#include "core/rejections.h"
 #include "film/film_sums.h"
 
 namespace lampyris {
@@ -91,7 +92,10 @@ class ImageFilm final : public Film {
 
   void openLightImage(double typical) override { sums_.lightImage().open(typical); }
   bool addSplat(const Vec2& film, const Rgb& value) override {
-    if (!isValid(value)) return false;
+    if (!isValid(value)) {
+      countRejection(Rejection::Splat);
+      return false;
+    }
     const double factor = darkening(static_cast<double>(value.luminance()));
     sums_.lightImage().add(film, value * static_cast<float>(factor));
     return true;
@@ -112,7 +116,9 @@ class ImageFilm final : public Film {
  private:
   /// The factor for a sample of luminance `y`.
   double darkening(double y) const {
-    return y > static_cast<double>(maxLuminance_) ? static_cast<double>(maxLuminance_) / y : 1;
+    if (!(y > static_cast<double>(maxLuminance_))) return 1;
+    countRejection(Rejection::DarkenedSample);
+    return static_cast<double>(maxLuminance_) / y;
   }
 
   Int2 resolution_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/rejections.h"
 #include "film/pixel_sums.h"
 
 namespace lampyris {
@@ -75,6 +76,7 @@ void LightImage::add(const Vec2& film, const Rgb& value) {
       const std::array<float, 3> rgb{value.r, value.g, value.b};
       for (size_t c = 0; c < 3; ++c) {
         const double steps = weight * static_cast<double>(rgb[c]) / unit_;
+        if (!(std::abs(steps) <= kLargest)) countRejection(Rejection::DarkenedSplat);
         const auto whole =
             static_cast<int64_t>(std::nearbyint(std::clamp(steps, -kLargest, kLargest)));
         std::atomic_ref<int64_t>(sums_[3 * pixel + c]).fetch_add(whole, std::memory_order_relaxed);

@@ -60,7 +60,7 @@ class AmbientOcclusionEstimator final : public RadianceEstimator {
  private:
   /// The first surface with a material that the ray meets.
   bool findSurface(Ray ray, SurfaceInteraction& at, RenderState& state) const {
-    for (int i = 0; i <= kMaxInterfaces; ++i) {
+    for (int i = 0; mayPass(i); ++i) {
       ++state.rays.closest;
       const auto hit = geometry_.intersect(ray);
       if (!hit) return false;

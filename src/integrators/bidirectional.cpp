@@ -20,6 +20,13 @@ namespace {
 /// For NumberSequence; the camera's vertex draws nothing.
 constexpr uint32_t kSeedDimension = kFirstPathDimension + 1;
 
+/// Whether the light over an edge is finite; if not, that is counted.
+bool isUsable(const Rgb& light) {
+  if (light.isFinite()) return true;
+  countRejection(Rejection::PathWeight);
+  return false;
+}
+
 /// The place of a vertex as what a shadow ray is led to.
 LightSample targetAt(const PathVertex& v, const Vec3& wi) {
   LightSample s;
@@ -185,16 +192,15 @@ Rgb BidirectionalPaths::sampleLight(Paths& paths, size_t t, SampleStream& stream
   const Vec2 u = stream.next2D();
   const auto chosen = distribution_->sample(at, choice);
   if (!chosen || !(chosen->pmf > 0)) return Rgb();
-  const LightTable::Entry entry = scene_.lightTable[chosen->light];
-  const auto s = entry.light->sample(entry.element, at.p, u);
-  if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return Rgb();
+  const auto s = lightArriving(scene_, chosen->light, at.p, u);
+  if (!s) return Rgb();
   Rgb light =
       v.throughput * v.f(at.wo, s->wi) * s->radiance * (v.cosine(s->wi) / (chosen->pmf * s->pdf));
   if (!light.isBlack()) light *= passing(paths, v, *s, rays);
   if (light.isBlack()) return Rgb();
   PathVertex start;
   start.kind = PathVertex::Kind::Light;
-  start.infinite = entry.light->isInfinite();
+  start.infinite = scene_.lightTable[chosen->light].light->isInfinite();
   start.light = chosen->light;
   start.at.p = s->p;
   start.at.n = s->n;
@@ -209,7 +215,7 @@ Rgb BidirectionalPaths::connect(Paths& paths, size_t s, size_t t, RayCounts& ray
   if (w == Vec3(0)) return Rgb();
   Rgb light =
       c.throughput * c.f(c.at.wo, w) * c.cosine(w) * scatteredFromLight(l, -w) / lengthSquared(d);
-  if (light.isBlack() || !light.isFinite()) return Rgb();
+  if (light.isBlack() || !isUsable(light)) return Rgb();
   light *= passing(paths, c, targetAt(l, w), rays);
   if (light.isBlack()) return Rgb();
   return light *
@@ -227,7 +233,7 @@ std::optional<Splat> BidirectionalPaths::connectCamera(Paths& paths, size_t s, S
   const Vec3 d = view->lens - l.at.p, w = normalize(d);
   Rgb value =
       scatteredFromLight(l, w) * (view->pixelsPerSteradian * splatFactor_ / lengthSquared(d));
-  if (value.isBlack() || !value.isFinite()) return std::nullopt;
+  if (value.isBlack() || !isUsable(value)) return std::nullopt;
   PathVertex lens;
   lens.kind = PathVertex::Kind::Camera;
   lens.at.p = view->lens;

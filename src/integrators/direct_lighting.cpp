@@ -115,10 +115,9 @@ std::optional<DrawnLight> DirectLighting::drawLight(const LightSampleContext& at
   const Vec2 u = stream.next2D();
   const auto chosen = distribution_->sample(at, choice);
   if (!chosen || !(chosen->pmf > 0)) return std::nullopt;
-  const LightTable::Entry entry = scene_.lightTable[chosen->light];
-  const auto s = entry.light->sample(entry.element, at.p, u);
-  if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return std::nullopt;
-  return DrawnLight{*s, chosen->pmf * s->pdf, entry.light->isDelta()};
+  const auto s = lightArriving(scene_, chosen->light, at.p, u);
+  if (!s) return std::nullopt;
+  return DrawnLight{*s, chosen->pmf * s->pdf, scene_.lightTable[chosen->light].light->isDelta()};
 }
 
 float DirectLighting::lightWeight(const DrawnLight& drawn, float scatterPdf) {

@@ -86,7 +86,7 @@ class DirectLightingEstimator final : public RadianceEstimator {
 /// Follows the ray to the first surface with a material; false if there is none.
 bool DirectLightingEstimator::findSurface(Node& node, RenderState& state, Rgb& radiance,
                                           SurfaceInteraction& at) const {
-  for (int i = 0; i <= kMaxInterfaces; ++i) {
+  for (int i = 0; mayPass(i); ++i) {
     ++state.rays.closest;
     const auto hit = geometry_.intersect(node.ray);
     if (!hit) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/direction_mixture.h"
 
+#include "core/rejections.h"
+
 namespace lampyris {
 
 DrawnDirection DirectionMixture::drawn(const Vec3& wi, const Rgb& scattered, float ownPdf) const {
@@ -48,7 +50,11 @@ std::optional<DrawnDirection> DirectionMixture::sample(float uc, const Vec2& u,
     const Vec3 wi = guide_->sample(part, u, more);
     d = drawn(wi, at_.scattered(wi), at_.pdf(wi));
   }
-  if (!d || !(d->pdf > 0) || !std::isfinite(d->pdf) || d->scattered.isBlack()) return std::nullopt;
+  if (!d || d->scattered.isBlack()) return std::nullopt;
+  if (!(d->pdf > 0) || !std::isfinite(d->pdf)) {
+    countRejection(Rejection::ScatteringDensity);
+    return std::nullopt;
+  }
   return d;
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrators/light_connection.h"
 
+#include <cmath>
+
+#include "core/rejections.h"
+
 namespace lampyris {
 
 namespace {
@@ -34,18 +38,27 @@ Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& l
   return ray;
 }
 
+std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
+                                         const Vec2& u) {
+  const LightTable::Entry entry = scene.lightTable[light];
+  const auto s = entry.light->sample(entry.element, from, u);
+  if (!s || s->radiance.isBlack()) return std::nullopt;
+  if (s->pdf > 0 && std::isfinite(s->pdf)) return s;
+  countRejection(Rejection::LightDensity);
+  return std::nullopt;
+}
+
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,
                                               float time, LightId light, const Vec2& u,
                                               RayCounts& rays) {
-  const LightTable::Entry entry = scene.lightTable[light];
-  const auto s = entry.light->sample(entry.element, at.p, u);
-  if (!s || !(s->pdf > 0) || s->radiance.isBlack()) return std::nullopt;
+  const auto s = lightArriving(scene, light, at.p, u);
+  if (!s) return std::nullopt;
   const Rgb f = at.bsdf->f(at.wo, s->wi);
   if (f.isBlack()) return std::nullopt;
   ++rays.shadow;
   if (scene.geometry->occluded(shadowRay(at, time, *s))) return std::nullopt;
   return LightConnection{s->radiance * f * at.bsdf->absCosTheta(s->wi), s->wi, s->pdf,
-                         entry.light->isDelta()};
+                         scene.lightTable[light].light->isDelta()};
 }
 
 }  // namespace lampyris

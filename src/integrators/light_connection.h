@@ -37,6 +37,10 @@ inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
   for (const SampledLight& l : cut) __builtin_prefetch(scene.lightTable[l.light].light);
 }
 
+/// A sample of the light as seen from a point, with a density that can be divided by. None where
+/// nothing arrives.
+std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
+                                         const Vec2& u);
 /// None where nothing arrives or nothing is scattered. at.bsdf must be set; `u` chooses the point
 /// of the light; `time` is that of the shadow ray.
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,

@@ -71,6 +71,7 @@ void PassLoop::report(const RayCounts& rays) const {
   s.set("render", "rays", rayCount);
   s.set("render", "shadow rays", shadowCount);
   s.set("render", "rays per second", rate(rayCount + shadowCount));
+  reportRejections(s, rejectedBefore_);
   if (rays.tracking.rays == 0) return;
   const auto tracked = static_cast<double>(rays.tracking.rays);
   s.set("media", "tracked rays", tracked);

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "base/integrator.h"
+#include "core/rejections.h"
 #include "integrators/pass_schedule.h"
 #include "integrators/render_loop.h"
 
@@ -51,7 +52,7 @@ class PassLoop {
   bool hasDeadline() const { return deadline_ > 0; }
   /// Tells who wants to know, not too often. From one thread at a time.
   void tellProgress();
-  /// The statistics that all integrators have.
+  /// The statistics that all integrators have, at the end.
   void report(const RayCounts& rays) const;
 
   RenderContext& context_;
@@ -69,6 +70,7 @@ class PassLoop {
 
   const LearnedState* const learned_;
   PassSchedule schedule_;
+  const RejectionCounts rejectedBefore_ = rejectionCounts();
   const Clock::time_point start_ = Clock::now();
   double paused_ = 0;    ///< seconds for which the render's clock stood still
   double deadline_ = 0;  ///< of the pass; 0: none

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/rejections.h"
+
 namespace lampyris {
 
 /// Density of `next`, drawn by scattering at `at` what comes from `before` (null: `at` is the
@@ -99,7 +101,9 @@ double PathDensities::weight(const WholePath& path, float time) const {
     if (isPossible(path, k + 1)) sum += ratio * start(k + 1) / own;
   }
   const double weight = 1 / (1 + sum);
-  return std::isfinite(weight) ? weight : 0;
+  if (std::isfinite(weight)) return weight;
+  countRejection(Rejection::MisWeight);
+  return 0;
 }
 
 }  // namespace lampyris

@@ -100,7 +100,7 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     if (primitive.light && !path.blind) addFound(path, state, emission(path, at));
     if (last) break;
     if (!material) {
-      if (++path.interfaces > kMaxInterfaces) break;
+      if (!mayPass(++path.interfaces)) break;
       path.blind = path.weighed;
       path.differential = nullptr;
       path.ray.o = offsetRayOrigin(at.p, at.pError, at.n, path.ray.d);

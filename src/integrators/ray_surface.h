@@ -4,12 +4,21 @@
 
 #include "base/material.h"
 #include "base/scene.h"
+#include "core/rejections.h"
 
 namespace lampyris {
 
 /// A ray may pass this many surfaces without a material in a row: two that coincide must not hold
 /// it forever.
 inline constexpr int kMaxInterfaces = 1000;
+
+/// Whether a ray that has passed so many, with the one that it stands at, may go on; if not, that
+/// is counted.
+inline bool mayPass(int interfaces) {
+  if (interfaces <= kMaxInterfaces) return true;
+  countRejection(Rejection::Interfaces);
+  return false;
+}
 
 /// The surface at `hit`, in as much detail as its material asks for, with the footprint of
 /// `differential` unless that is null or nothing there needs it.

@@ -170,7 +170,7 @@ Rgb SppmEstimator::gather(const SurfaceInteraction& at, const Bsdf& bsdf) const 
 /// Goes on to the next surface with a material; false if there is none.
 bool SppmEstimator::findSurface(CameraPath& path, RenderState& state,
                                 SurfaceInteraction& at) const {
-  for (int i = 0; i <= kMaxInterfaces; ++i) {
+  for (int i = 0; mayPass(i); ++i) {
     ++state.rays.closest;
     const auto hit = geometry_.intersect(path.ray);
     if (!hit) {

@@ -136,6 +136,7 @@ void SubpathTracer::fromLight(const Ray& camera, size_t bounces, SampleStream st
     walk.throughput *= walk.medium->transmittance(before, *numbers, rays.tracking);
   }
   if (!walk.throughput.isFinite()) {
+    countRejection(Rejection::PathWeight);
     out.clear();
     return;
   }
@@ -196,7 +197,7 @@ bool SubpathTracer::advance(Walk& walk) const {
     walk.differential = nullptr;
     if (walk.numbers) walk.medium = mediumBeyond(primitive, walk.medium, walk.ray.d, at.n);
     startBehind(walk.ray, at);
-    return ++walk.interfaces <= kMaxInterfaces;
+    return mayPass(++walk.interfaces);
   }
   if (walk.path.size() > walk.bounces) return false;
   PathVertex& v = walk.next(PathVertex::Kind::Surface, at);
@@ -235,7 +236,11 @@ bool SubpathTracer::scatter(Walk& walk) const {
   } else {
     walk.throughput *= s->f * (v.cosine(s->wi) / s->pdf);
   }
-  if (walk.throughput.isBlack() || !walk.throughput.isFinite()) return false;
+  if (walk.throughput.isBlack()) return false;
+  if (!walk.throughput.isFinite()) {
+    countRejection(Rejection::PathWeight);
+    return false;
+  }
   // A specular direction: the choice of it has the same probability both ways, and drops out.
   walk.pdf = s->isSpecular() ? 1. : static_cast<double>(s->pdf);
   const double back = s->isSpecular() ? 1. : static_cast<double>(v.pdf(s->wi, wo));

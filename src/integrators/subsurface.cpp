@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/frame.h"
+#include "core/rejections.h"
 
 namespace lampyris {
 
@@ -80,10 +81,14 @@ ProbeHits follow(const Probe& probe, const Geometry& geometry, const Material& m
   ray.tMax = probe.length;
   ray.time = time;
   const Vec3 end = probe.start + probe.length * probe.direction;
-  for (int i = 0; i < kMaxProbeHits && ray.tMax > 0; ++i) {
+  for (int i = 0; ray.tMax > 0; ++i) {
     ++rays.closest;
     const auto hit = geometry.intersect(ray);
     if (!hit) break;
+    if (i == kMaxProbeHits) {
+      countRejection(Rejection::ProbeHits);
+      break;
+    }
     const SurfaceInteraction at = geometry.surface(ray, *hit, SurfaceDetail::Basic);
     // The n-th takes the place of those before with probability 1/n.
     if (geometry.primitive(*hit).material == &material &&
@@ -130,7 +135,11 @@ std::optional<SubsurfaceEntry> sampleSubsurfaceEntry(const Geometry& geometry,
       probeDensity(bssrdf, entry.at, exit.p, frame) / static_cast<float>(hits.count);
   if (!(density > 0)) return std::nullopt;
   entry.weight = bssrdf.profile(distance(exit.p, entry.at.p)) / density;
-  if (entry.weight.isBlack() || !entry.weight.isFinite()) return std::nullopt;
+  if (entry.weight.isBlack()) return std::nullopt;
+  if (!entry.weight.isFinite()) {
+    countRejection(Rejection::PathWeight);
+    return std::nullopt;
+  }
   entry.at.wo = entry.at.shading.n;
   return entry;
 }

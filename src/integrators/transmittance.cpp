@@ -14,7 +14,7 @@ Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSeque
     return medium ? medium->transmittance(ray, numbers, rays.tracking) : Rgb(1);
   }
   Rgb share(1);
-  for (int passed = 0; passed < kMaxInterfaces; ++passed) {
+  for (int passed = 0; mayPass(passed); ++passed) {
     const auto hit = geometry.intersect(ray);
     if (hit && geometry.primitive(*hit).material) return Rgb();
     if (medium) {

@@ -75,7 +75,10 @@ void GuidedMemory::finish(const Rgb& radiance) {
     GuideSample s = t.sample;
     s.radiance = positive((radiance - t.before) / t.throughput).luminance();
     s.gain = positive((radiance - t.before + t.direct) / t.throughput * t.scattered).luminance();
-    if (std::isfinite(s.radiance) && std::isfinite(s.gain)) samples.push_back(s);
+    if (std::isfinite(s.radiance) && std::isfinite(s.gain))
+      samples.push_back(s);
+    else
+      countRejection(Rejection::LearningSample);
   }
   turns.clear();
 }
@@ -189,7 +192,7 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
   SurfaceInteraction at = surfaceAt(*scene_.geometry, path.ray, hit, path.differential);
   if (primitive.light && !path.emissionAdded) addEmission(path, emission(path, at));
   if (!material) {
-    if (++path.interfaces > kMaxInterfaces) return false;
+    if (!mayPass(++path.interfaces)) return false;
     path.differential = nullptr;
     path.medium = mediumBeyond(primitive, path.medium, path.ray.d, at.n);
     startBehind(path.ray, at);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/light.h"
+#include "core/rejections.h"
 
 namespace lampyris {
 
@@ -21,7 +22,11 @@ std::optional<LightSample> samplePoint(const Vec3& p, const Vec3& from,
   s.distance = std::sqrt(squared);
   s.wi = d / s.distance;
   s.radiance = intensity(-s.wi) / squared;
-  if (s.radiance.isBlack() || !s.radiance.isFinite()) return std::nullopt;
+  if (s.radiance.isBlack()) return std::nullopt;
+  if (!s.radiance.isFinite()) {
+    countRejection(Rejection::LightRadiance);
+    return std::nullopt;
+  }
   s.pdf = 1;
   s.p = p;
   return s;

@@ -49,9 +49,7 @@ class FresnelBlend final : public Lobe {
     }
     if (!(i.z > 0)) return std::nullopt;
     const Vec3 wi = side * i;
-    const float density = pdf(wo, wi);
-    if (!(density > 0)) return std::nullopt;
-    return LobeSample{wi, f(wo, wi), density, flags, 1};
+    return LobeSample{wi, f(wo, wi), pdf(wo, wi), flags, 1};
   }
   float albedo(const Vec3& wo) const override {
     return scale.luminance() * std::min(1.f, baseAlbedo(wo) + coatAlbedo(wo));

@@ -192,7 +192,7 @@ std::optional<LobeSample> HairLobe::sample(const Vec3& wo, float uc, const Vec2&
       (p < 3 ? azimuth(p, o.gammaT) + TrimmedLogistic(azimuthalScale_).sample(ua) : 2 * kPi * ua);
   const Vec3 wi(sinI, cosI * std::cos(phi), cosI * std::sin(phi));
   const float density = sum(o, wi, o.probability);
-  if (wi.z == 0 || !(density > 0)) return std::nullopt;
+  if (wi.z == 0) return std::nullopt;
   const uint8_t side = sameHemisphere(wo, wi) ? kReflection : kTransmission;
   return LobeSample{wi, scale * sum(o, wi, o.attenuation) / std::abs(wi.z), density,
                     static_cast<uint8_t>(kGlossy | side), 1};

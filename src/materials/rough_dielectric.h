@@ -59,9 +59,7 @@ class RoughDielectric final : public Lobe {
       e.cosI = dot(e.i, e.m);
       if (!(e.i.z < 0) || !(e.cosI < 0)) return std::nullopt;
     }
-    const float pdf = density(e);
-    if (!(pdf > 0)) return std::nullopt;
-    return LobeSample{side * e.i, value(e), pdf,
+    return LobeSample{side * e.i, value(e), density(e),
                       static_cast<uint8_t>(kGlossy | (e.reflected ? kReflection : kTransmission)),
                       e.reflected ? 1.f : e.eta};
   }

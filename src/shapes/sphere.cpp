@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/frame.h"
+#include "core/rejections.h"
 #include "core/sampling.h"
 #include "shapes/quadric.h"
 #include "shapes/registry.h"
@@ -159,7 +160,11 @@ std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3
   const auto cone = coneFrom(from);
   if (!cone) return Shape::sampleSolidAngle(element, from, u);
   const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
-  if (!std::isfinite(pdf) || !(area(element) > 0)) return std::nullopt;
+  if (!(area(element) > 0)) return std::nullopt;
+  if (!std::isfinite(pdf)) {
+    countRejection(Rejection::LightDensity);
+    return std::nullopt;
+  }
 
   // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
   // centre: α = asin(sin θ / sin θmax) − θ.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/frame.h"
+#include "core/rejections.h"
 #include "core/sampling.h"
 #include "shapes/spherical_triangle.h"
 
@@ -285,12 +286,12 @@ std::optional<ShapeSample> TriangleMesh::sampleSolidAngle(uint32_t element, cons
                                                           const Vec2& u) const {
   const Corners c = corners(element);
   const View view(c, from);
+  if (!(view.volume > 0)) return std::nullopt;  // seen edge on
   ShapeSample s;
   Vec3 b;
   if (view.isWide()) {
     const SphericalTriangle seen = view.spherical();
     s.pdf = 1 / seen.solidAngle();
-    if (!std::isfinite(s.pdf)) return std::nullopt;
     b = seen.sample(u);
     s.p = c.point(b);
   } else {
@@ -298,7 +299,10 @@ std::optional<ShapeSample> TriangleMesh::sampleSolidAngle(uint32_t element, cons
     b = Vec3(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
     s.p = c.point(b);
     s.pdf = view.uniformPdf(distance(s.p, from));
-    if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return std::nullopt;
+  }
+  if (!(s.pdf > 0) || !std::isfinite(s.pdf)) {
+    countRejection(Rejection::LightDensity);
+    return std::nullopt;
   }
   s.pError = c.pointError(b);
   s.n = orientedNormal(view.areaNormal, interpolatedNormal(c, b));

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/rejections.h"
 #include "tools/progress.h"
 
 namespace lampyris {
@@ -36,6 +37,14 @@ std::string badSamples(const Statistics& s) {
       nan, infinite, negative, where);
 }
 
+std::string rejectedSamples(const Statistics& s) {
+  std::string list;
+  for (const auto& e : s.entries())
+    if (e.section == kRejectionSection && e.value > 0)
+      list += fmt::format("{}{} {:.0f}", list.empty() ? "" : ", ", e.name, e.value);
+  return list.empty() ? "" : "rejected samples: " + list + "\n";
+}
+
 }  // namespace
 
 std::string summary(const RunReport& report, const Statistics& s, bool verbose) {
@@ -56,6 +65,7 @@ std::string summary(const RunReport& report, const Statistics& s, bool verbose) 
     text += fmt::format(", {} warning{}", report.warnings, report.warnings == 1 ? "" : "s");
   text += report.interrupted ? ", interrupted\n" : "\n";
   text += badSamples(s);
+  text += rejectedSamples(s);
   if (!verbose) return text;
   std::string section;
   for (const auto& e : s.entries()) {
