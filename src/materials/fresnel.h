@@ -11,21 +11,34 @@
 
 namespace lampyris {
 
+/// The index of refraction across a boundary, squared, and that less 1, to all digits: where it is
+/// near 1, those decide what happens at grazing angles.
+struct SquaredIndex {
+  float square, excess;
+  /// Of the far side in relation to the near one, that of the light; arguments as below.
+  SquaredIndex(float cosI, float eta) : square(eta * eta), excess((eta - 1) * (eta + 1)) {
+    if (cosI >= 0) return;
+    square = 1 / square;
+    excess *= -square;
+  }
+  /// (η cos θt)²; not positive beyond the critical angle.
+  float refracted(float cosI) const { return excess + cosI * cosI; }
+};
+
 /// Share of light that a boundary of dielectrics reflects. `cosI` is the cosine between the normal
 /// and the light's direction, negative on the far side of the normal. `eta` is the index of
 /// refraction behind the boundary in relation to the one in front, as the normal looks; > 0.
 inline float fresnelDielectric(float cosI, float eta) {
   if (eta == 1) return 0;
-  if (cosI < 0) {
-    cosI = -cosI;
-    eta = 1 / eta;
-  }
-  cosI = std::min(cosI, 1.f);
-  const float sin2T = (1 - cosI * cosI) / (eta * eta);
-  if (sin2T >= 1) return 1;
-  const float cosT = std::sqrt(1 - sin2T);
-  const float parallel = (eta * cosI - cosT) / (eta * cosI + cosT);
-  const float perpendicular = (cosI - eta * cosT) / (cosI + eta * cosT);
+  const SquaredIndex index(cosI, eta);
+  cosI = std::min(std::abs(cosI), 1.f);
+  const float t2 = index.refracted(cosI);
+  if (t2 <= 0) return 1;
+  // Both amplitudes multiplied by their denominators: the differences are multiples of η² − 1 then.
+  const float t = std::sqrt(t2);
+  const float perpendicular = index.excess / sqr(cosI + t);
+  const float parallel =
+      index.excess * (cosI * cosI * (index.square + 1) - 1) / sqr(index.square * cosI + t);
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 

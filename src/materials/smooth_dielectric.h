@@ -35,7 +35,7 @@ class SmoothDielectric final : public Lobe {
       return LobeSample{{-wo.x, -wo.y, wo.z}, f, p, kReflection | kSpecular, 1};
     }
     const float eta = wo.z > 0 ? eta_ : 1 / eta_;
-    const Vec3 wi = refract(wo, eta);
+    const Vec3 wi = refract(wo);
     if (wi.z == 0) return std::nullopt;
     // Radiance is compressed into the smaller solid angle of the denser side.
     const Rgb f = scale * transmittance_ * ((1 - fresnel) / (eta * eta * std::abs(wi.z)));
@@ -48,9 +48,11 @@ class SmoothDielectric final : public Lobe {
 
  private:
   /// Snell's law at the plane z = 0; not called beyond the critical angle.
-  static Vec3 refract(const Vec3& wo, float eta) {
-    if (eta == 1) return -wo;
-    const float cosT = std::sqrt(std::max(0.f, 1 - sin2Theta(wo) / (eta * eta)));
+  Vec3 refract(const Vec3& wo) const {
+    if (eta_ == 1) return -wo;
+    const float eta = wo.z > 0 ? eta_ : 1 / eta_;
+    const SquaredIndex index(wo.z, eta_);
+    const float cosT = std::sqrt(std::max(0.f, index.refracted(wo.z)) / index.square);
     return {-wo.x / eta, -wo.y / eta, wo.z > 0 ? -cosT : cosT};
   }
   Rgb reflectance_, transmittance_;
