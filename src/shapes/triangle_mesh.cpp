@@ -60,10 +60,13 @@ struct TriangleMesh::Corners {
 
   /// Twice the area along the normal. In double: slivers keep their direction.
   DVec3 areaNormal() const { return glm::cross(DVec3(p1) - DVec3(p0), DVec3(p2) - DVec3(p0)); }
-  Vec3 point(const Vec3& b) const { return b.x * p0 + b.y * p1 + b.z * p2; }
-  /// Σ of the absolute terms of that sum: what its rounding error scales with.
+  /// By the edges, so that far from the origin the point is on the plane but for its own rounding.
+  Vec3 point(const Vec3& b) const { return p0 + (b.y * (p1 - p0) + b.z * (p2 - p0)); }
+  /// That rounding, and what is proportional to the distance from p0: this sum's errors and the ray
+  /// tracer's.
   Vec3 pointError(const Vec3& b) const {
-    return roundingBound(7) * (glm::abs(b.x * p0) + glm::abs(b.y * p1) + glm::abs(b.z * p2));
+    return roundingBound(2) * glm::abs(point(b)) +
+           roundingBound(7) * (b.y * glm::abs(p1 - p0) + b.z * glm::abs(p2 - p0));
   }
 };
 
