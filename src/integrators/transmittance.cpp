@@ -35,7 +35,7 @@ const Medium* mediumAt(const Scene& scene, const Vec3& p, const Ray& camera, Ray
   const Geometry& geometry = *scene.geometry;
   const Vec3 d = camera.o - p;
   Ray ray{p, normalize(d), length(d), camera.time};
-  for (int passed = 0; passed < kMaxInterfaces && ray.tMax > 0; ++passed) {
+  for (int passed = 0; ray.tMax > 0 && mayPass(passed); ++passed) {
     ++rays.closest;
     const auto hit = geometry.intersect(ray);
     if (!hit) break;
