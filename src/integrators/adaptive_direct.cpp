@@ -14,11 +14,10 @@ constexpr float kHitBonus = 10;
 /// 1 / density; 0 if that is not positive. Densities near a mirror may overflow to infinity.
 float inverse(float density) { return density > 0 ? 1 / density : 0.f; }
 
-/// What the tree sees of a point that takes so many BRDF-aware samples: as they are drawn by what
-/// all lobes make of lights, each takes its part of the cut's work over.
-LightSampleContext seenByTree(const LightSampleContext& at, int samples) {
+/// The point as the tree sees it, which `worth` of the whole cut is drawn for.
+LightSampleContext seenByTree(const LightSampleContext& at, float worth) {
   LightSampleContext tree = at;
-  tree.worth /= static_cast<float>(std::max(1, samples));
+  tree.worth *= worth;
   return tree;
 }
 
@@ -150,6 +149,13 @@ int AdaptiveDirect::sampleCount(const Point& point, Purpose purpose, float u) co
   return std::clamp(static_cast<int>(wanted + u), 1, maxSamples_);
 }
 
+/// BRDF-aware samples are drawn by what all lobes make of lights, so each takes its part of the
+/// cut's work over; but not that of single lights, which the tree draws without chance.
+float AdaptiveDirect::treeWorth(const Point& point) {
+  if (!point.brdf || point.samples <= 1) return 1;
+  return lerp(point.brdf->shareOfSingleLights(), 1 / point.count(), 1.f);
+}
+
 /// p_i, a function of the samples before i alone.
 float AdaptiveDirect::lightProbability(const Point& point, int i) const {
   if (!point.brdf) return 0;
@@ -182,8 +188,8 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
   // One sample is all that less could be worth.
   point.look(lights_, 1 / static_cast<float>(maxSamples_));
   point.samples = sampleCount(point, purpose, point.brdf ? stream.next1D() : 0);
-  point.tree = seenByTree(at, point.samples);
-  allocation = {point.samples, point.cut};
+  allocation = {point.samples, point.cut, treeWorth(point)};
+  point.tree = seenByTree(at, allocation.treeWorth);
   clock.lap(kBrdfOriented);
 
   if (state.aov) state.aov->beginLightVertex();
@@ -308,7 +314,7 @@ float AdaptiveDirect::continuationWeight(const LightSampleContext& from,
                                          const Allocation& allocation, float bsdfPdf, LightId light,
                                          float lightPdf) const {
   // The path's throughput has been divided by the density already.
-  const LightSampleContext seen = seenByTree(from, allocation.samples);
+  const LightSampleContext seen = seenByTree(from, allocation.treeWorth);
   const float tree = treeDraws(seen, allocation.cut, light) * lightPdf;
   return 1 / (tree / bsdfPdf + static_cast<float>(allocation.samples));
 }

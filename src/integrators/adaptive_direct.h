@@ -14,8 +14,9 @@
 /// beforehand.
 ///
 /// Further deviations: N is at least 1, because the tree alone meets peaks of the BSDF with
-/// unbounded weights; points without glossy lobes take one BSDF sample and no cut; lights are
-/// sampled by solid angle. Cost: a shadow ray or a ray and one light pmf by either tree a sample.
+/// unbounded weights; points without glossy lobes take one BSDF sample and no cut; the tree's cut
+/// is smaller where N is larger, but not where single lights matter; lights are sampled by solid
+/// angle. Cost: a shadow ray or a ray and one light pmf by either tree a sample.
 #pragma once
 
 #include "base/integrator.h"
@@ -64,8 +65,9 @@ class AdaptiveDirect {
   };
   /// How many draws the light that a continuation finds is weighed against.
   struct Allocation {
-    int samples = 0;   ///< BRDF-aware ones, the continuation among them
-    bool cut = false;  ///< whether the tree drew from its cut
+    int samples = 0;      ///< BRDF-aware ones, the continuation among them
+    bool cut = false;     ///< whether the tree drew from its cut
+    float treeWorth = 1;  ///< in [0, 1]: what part of it
   };
   /// The same for a path that goes on: without what its next ray, the last of the BSDF samples,
   /// finds.
@@ -83,6 +85,7 @@ class AdaptiveDirect {
   Parts estimate(const LightSampleContext& at, float time, Purpose purpose, SampleStream& stream,
                  RenderState& state, Allocation& allocation) const;
   int sampleCount(const Point& point, Purpose purpose, float u) const;
+  static float treeWorth(const Point& point);
   float lightProbability(const Point& point, int i) const;
   Rgb brdfLightSample(Point& point, int i) const;
   Rgb bsdfSample(Point& point, int i) const;

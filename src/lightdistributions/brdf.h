@@ -60,6 +60,8 @@ class BrdfVertex {
   /// the cut.
   float importance() const { return importance_; }
   size_t cutSize() const { return cut_.size(); }
+  /// How much of the importance of the cut is that of clusters of one light, in [0, 1].
+  float shareOfSingleLights() const { return cut_.shareOfSingleLights(); }
 
  private:
   const BrdfLightDistribution& lights_;

@@ -100,6 +100,15 @@ void BrdfCut::split(const Wide& which, const BrdfReceiver& at, float threshold) 
   look(child, own / sumOfIntensities(tree_.nodes()[child]), at, threshold);
 }
 
+float BrdfCut::shareOfSingleLights() const {
+  if (!(total_ > 0)) return 0;
+  double single = 0;
+  for (size_t i = 0; i < partCount_; ++i)
+    for (size_t lane = 0; lane < kWidth; ++lane)
+      if (tree_.nodes()[parts_[i].node].isLeaf(lane)) single += parts_[i].weight[lane];
+  return static_cast<float>(single / total_);
+}
+
 std::optional<SampledLight> BrdfCut::sample(const BrdfReceiver& at, double u) const {
   if (!(total_ > 0)) return std::nullopt;
   const size_t chosen = choose(std::span(totals_.data(), partCount_), total_, u);

@@ -33,6 +33,8 @@ class BrdfCut {
   float largestIntegral() const { return largest_; }
   /// Sum of the clusters' importances.
   double importance() const { return total_; }
+  /// The part of it that clusters of one light have.
+  float shareOfSingleLights() const;
 
   /// None where no light can contribute. `u` in [0, 1).
   std::optional<SampledLight> sample(const BrdfReceiver& at, double u) const;

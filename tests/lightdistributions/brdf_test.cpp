@@ -134,5 +134,22 @@ TEST(Brdf, ThresholdSetsTheCut) {
   }
 }
 
+TEST(Brdf, KnowsHowMuchSingleLightsMatter) {
+  FloorPoint at(Vec3(-1, 0.2f, 1.2f));
+  at.bsdf.add<MicrofacetReflection<ConductorFresnel>>(Rgb(1), TrowbridgeReitz(0.1f, 0.1f), kMetal);
+  const LightSampleContext& c = at.finish();
+  const BrdfReceiver receiver(c);
+  DistributionMaker maker;
+  const auto share = [&](const LightScene& scene, const char* threshold) {
+    const auto lights = maker.make("brdf", scene, {{"cutthreshold", threshold}});
+    const auto& brdf = dynamic_cast<const BrdfLightDistribution&>(*lights);
+    return BrdfVertex(brdf, c, receiver).shareOfSingleLights();
+  };
+  EXPECT_NEAR(share(*manyLights(6), "0.5"), 1, 1e-6);
+  const auto many = manyLights(1500);
+  EXPECT_EQ(share(*many, "1"), 0);
+  EXPECT_GT(share(*many, "0.001"), 0.1);
+}
+
 }  // namespace
 }  // namespace lampyris::test
