@@ -40,6 +40,7 @@ class LightReceiver {
     sides_ = facing == 0 ? Sides::Both : Sides::One;
     side_ = (facing > 0) == ctx.reflects ? ctx.n : -ctx.n;
     ns_ = faceForward(ctx.ns, side_);
+    if (ns_ == side_) return;
     const float tilt = length(cross(ns_, side_));
     if (tilt > kFloor) tilt_ = tilt;
   }

@@ -11,6 +11,8 @@ namespace {
 namespace stdx = std::experimental;
 using Float8 = stdx::simd<float, stdx::simd_abi::deduce_t<float, WideLightBVHNode::kWidth>>;
 
+using Bits8 = stdx::rebind_simd_t<uint32_t, Float8>;
+
 template <class T>
 Float8 load(const WideLightBVHNode::Lanes<T>& lanes) {
   return Float8(lanes.data(), stdx::element_aligned);
@@ -56,12 +58,14 @@ struct Geometry {
   }
 };
 
+/// How far `d` reaches beyond a box with half edge `half`.
+[[gnu::always_inline]] inline Float8 beyond(const Float8& d, const Float8& half) {
+  return stdx::max(abs(d) - half, Float8(0));
+}
+
 /// The square of LightReceiver::meanSquaredDistance(), relative to `unit2` squared: neither end of
 /// the floats is near, however far the receiver is.
 [[gnu::always_inline]] inline Float8 meanDistance4(const Geometry& g, float unit2) {
-  const auto beyond = [](const Float8& d, const Float8& half) {
-    return stdx::max(abs(d) - half, Float8(0));
-  };
   const Vec3x8 toBox{beyond(g.toCenter.x, g.half.x), beyond(g.toCenter.y, g.half.y),
                      beyond(g.toCenter.z, g.half.z)};
   const Float8 least = stdx::max(g.r2 * LightReceiver::kNearest2, Float8(kLeastD2));
@@ -150,10 +154,8 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
   ChildWeights out;
   out.unit2 = std::max(1.f, glm::dot(g.receiver, g.receiver));
   // Intensities are the upper halves of floats: moved there, they are floats.
-  alignas(32) WideLightBVHNode::Lanes<uint32_t> bits;
-  for (size_t i = 0; i < bits.size(); ++i) bits[i] = static_cast<uint32_t>(node.intensity[i]) << 16;
-  const Float8 intensity(std::bit_cast<WideLightBVHNode::Lanes<float>>(bits).data(),
-                         stdx::element_aligned);
+  const Bits8 halves(node.intensity.data(), stdx::element_aligned);
+  const auto intensity = std::bit_cast<Float8>(halves << 16);
   Float8 weights = (intensity / sqrt(meanDistance4(g, out.unit2))) * factor;
   where(!(weights > 0), weights) = 0;  // not a number: the point isn't one either
   weights.copy_to(out.of.data(), stdx::vector_aligned);
