@@ -276,20 +276,21 @@ bool toEmbree(const Ray& ray, float limit, RTCRay& out) {
 }
 
 std::optional<Hit> EmbreeGeometry::intersect(const Ray& ray) const {
+  std::optional<Hit> out;
   RTCRayHit query;
-  if (!toEmbree(ray, rayLimit_, query.ray)) return std::nullopt;
+  if (!toEmbree(ray, rayLimit_, query.ray)) return out;
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene_.get(), &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  Hit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return out;
+  Hit& hit = out.emplace();
   hit.shape = {query.ray.tfar, {query.hit.u, query.hit.v}};
   hit.primitive = query.hit.geomID;
   hit.element = query.hit.primID;
   if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID)
     hit.instance = query.hit.instID[0] - static_cast<uint32_t>(description_.primitives.size());
-  return hit;
+  return out;
 }
 
 bool EmbreeGeometry::occluded(const Ray& ray) const {

@@ -140,8 +140,9 @@ float Bsdf::pdf(const Vec3& woWorld, const Vec3& wiWorld) const {
 }
 
 std::optional<BsdfSample> Bsdf::sample(const Vec3& woWorld, float uc, const Vec2& u) const {
+  std::optional<BsdfSample> out;
   const Vec3 wo = frame_.toLocal(woWorld);
-  if (count_ == 0 || std::abs(wo.z) < kMinCosine) return std::nullopt;
+  if (count_ == 0 || std::abs(wo.z) < kMinCosine) return out;
 
   Probabilities p;
   size_t chosen = 0;
@@ -158,28 +159,36 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& woWorld, float uc, const Vec2
       below += p[i];
       if (uc < below) break;
     }
-    if (chosen == count_) return std::nullopt;
+    if (chosen == count_) return out;
     uc = std::clamp((uc - before) / p[chosen], 0.f, kOneMinusEpsilon);
   }
 
   const auto s = lobes_[chosen]->sample(wo, uc, u);
-  if (!s) return std::nullopt;
-  BsdfSample out{frame_.toWorld(s->wi), s->f, p[chosen] * s->pdf, s->flags, s->eta};
+  if (!s) return out;
+  const Vec3 wi = frame_.toWorld(s->wi);
+  Rgb f = s->f;
+  float pdf = p[chosen] * s->pdf;
   if (!(s->flags & kSpecular)) {
-    const SideRule side(dot(woWorld, ng_) * dot(out.wi, ng_), wo.z * s->wi.z);
-    if (!side.allows(*lobes_[chosen])) out.f = Rgb();
+    const SideRule side(dot(woWorld, ng_) * dot(wi, ng_), wo.z * s->wi.z);
+    if (!side.allows(*lobes_[chosen])) f = Rgb();
     for (size_t i = 0; i < count_; ++i) {
       const Lobe& l = *lobes_[i];
       if (i == chosen || (l.flags & kSpecular)) continue;
-      if (p[i] > 0) out.pdf += p[i] * l.pdf(wo, s->wi);
-      if (side.allows(l)) out.f += l.f(wo, s->wi);
+      if (p[i] > 0) pdf += p[i] * l.pdf(wo, s->wi);
+      if (side.allows(l)) f += l.f(wo, s->wi);
     }
   }
-  if (out.f.isBlack()) return std::nullopt;
-  if (!(out.pdf > 0) || !std::isfinite(out.pdf)) {
+  if (f.isBlack()) return out;
+  if (!(pdf > 0) || !std::isfinite(pdf)) {
     countRejection(Rejection::ScatteringDensity);
-    return std::nullopt;
+    return out;
   }
+  BsdfSample& drawn = out.emplace();
+  drawn.wi = wi;
+  drawn.f = f;
+  drawn.pdf = pdf;
+  drawn.flags = s->flags;
+  drawn.eta = s->eta;
   return out;
 }
 

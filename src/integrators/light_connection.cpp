@@ -41,24 +41,31 @@ Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& l
 std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
                                          const Vec2& u) {
   const LightTable::Entry entry = scene.lightTable[light];
-  const auto s = entry.light->sample(entry.element, from, u);
-  if (!s || s->radiance.isBlack()) return std::nullopt;
-  if (s->pdf > 0 && std::isfinite(s->pdf)) return s;
-  countRejection(Rejection::LightDensity);
-  return std::nullopt;
+  auto s = entry.light->sample(entry.element, from, u);
+  if (s && !s->radiance.isBlack()) {
+    if (s->pdf > 0 && std::isfinite(s->pdf)) return s;
+    countRejection(Rejection::LightDensity);
+  }
+  s.reset();
+  return s;
 }
 
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,
                                               float time, LightId light, const Vec2& u,
                                               RayCounts& rays) {
+  std::optional<LightConnection> out;
   const auto s = lightArriving(scene, light, at.p, u);
-  if (!s) return std::nullopt;
+  if (!s) return out;
   const Rgb f = at.bsdf->f(at.wo, s->wi);
-  if (f.isBlack()) return std::nullopt;
+  if (f.isBlack()) return out;
   ++rays.shadow;
-  if (scene.geometry->occluded(shadowRay(at, time, *s))) return std::nullopt;
-  return LightConnection{s->radiance * f * at.bsdf->absCosTheta(s->wi), s->wi, s->pdf,
-                         scene.lightTable[light].light->isDelta()};
+  if (scene.geometry->occluded(shadowRay(at, time, *s))) return out;
+  LightConnection& c = out.emplace();
+  c.value = s->radiance * f * at.bsdf->absCosTheta(s->wi);
+  c.wi = s->wi;
+  c.pdf = s->pdf;
+  c.isDelta = scene.lightTable[light].light->isDelta();
+  return out;
 }
 
 }  // namespace lampyris

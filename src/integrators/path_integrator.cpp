@@ -184,7 +184,8 @@ bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Materi
   const bool below = scattersBelow_ && material && material->scattersBelow();
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
-    path.from = LightSampleContext(at, bsdf);
+    // In place: to copy what was just written, in larger pieces, waits for all of it.
+    std::construct_at(&path.from, at, bsdf);
     // The noise of a vertex goes into the image times the throughput: that many lights less pay.
     path.from.worth = std::min(path.throughput.maxComponent(), 1.f);
     addLightSamples(path, stream, state);

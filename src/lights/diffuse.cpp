@@ -56,21 +56,25 @@ class DiffuseAreaLight final : public Light {
 
   std::optional<LightSample> sample(uint32_t element, const Vec3& from,
                                     const Vec2& u) const override {
+    std::optional<LightSample> out;
     const auto point = shape_.sampleSolidAngle(element, from, u);
-    if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return std::nullopt;
+    if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return out;
     const Vec3 d = point->p - from;
-    LightSample s;
-    s.distance = length(d);
-    if (!(s.distance > 0)) return std::nullopt;
-    s.wi = d * (1 / s.distance);
-    if (!emitsTowards(point->n, -s.wi)) return std::nullopt;
-    s.radiance = varying_ ? varying_->at(element, point->p, point->n) : radiance_;
-    if (s.radiance.isBlack()) return std::nullopt;
+    const float distance = length(d);
+    if (!(distance > 0)) return out;
+    const Vec3 wi = d * (1 / distance);
+    if (!emitsTowards(point->n, -wi)) return out;
+    const Rgb radiance = varying_ ? varying_->at(element, point->p, point->n) : radiance_;
+    if (radiance.isBlack()) return out;
+    LightSample& s = out.emplace();
+    s.radiance = radiance;
+    s.wi = wi;
+    s.distance = distance;
     s.pdf = point->pdf;
     s.p = point->p;
     s.pError = point->pError;
     s.n = point->n;
-    return s;
+    return out;
   }
   float pdfHit(uint32_t element, const Vec3& from, const SurfaceInteraction& hit) const override {
     return shape_.pdfSolidAngle(element, from, hit.p, hit.n);

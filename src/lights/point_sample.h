@@ -15,21 +15,25 @@ namespace lampyris {
 template <class Intensity>
 std::optional<LightSample> samplePoint(const Vec3& p, const Vec3& from,
                                        const Intensity& intensity) {
+  std::optional<LightSample> out;
   const Vec3 d = p - from;
   const float squared = lengthSquared(d);
-  if (!(squared > 0)) return std::nullopt;
-  LightSample s;
-  s.distance = std::sqrt(squared);
-  s.wi = d / s.distance;
-  s.radiance = intensity(-s.wi) / squared;
-  if (s.radiance.isBlack()) return std::nullopt;
-  if (!s.radiance.isFinite()) {
+  if (!(squared > 0)) return out;
+  const float distance = std::sqrt(squared);
+  const Vec3 wi = d / distance;
+  const Rgb radiance = intensity(-wi) / squared;
+  if (radiance.isBlack()) return out;
+  if (!radiance.isFinite()) {
     countRejection(Rejection::LightRadiance);
-    return std::nullopt;
+    return out;
   }
+  LightSample& s = out.emplace();
+  s.radiance = radiance;
+  s.wi = wi;
+  s.distance = distance;
   s.pdf = 1;
   s.p = p;
-  return s;
+  return out;
 }
 
 }  // namespace lampyris

@@ -18,11 +18,16 @@ inline float cosinePdf(float side, const Vec3& wi) {
 /// A direction of the hemisphere above (`side` = 1) or below (−1) with the lobe's value there.
 template <class L>
 std::optional<LobeSample> sampleCosine(const L& lobe, float side, const Vec3& wo, const Vec2& u) {
+  std::optional<LobeSample> out;
   Vec3 wi = sampleCosineHemisphere(u);
-  if (!(wi.z > 0)) return std::nullopt;
-  const float density = cosineHemispherePdf(wi.z);
+  if (!(wi.z > 0)) return out;
+  LobeSample& s = out.emplace();
+  s.pdf = cosineHemispherePdf(wi.z);
   wi.z *= side;
-  return LobeSample{wi, lobe.f(wo, wi), density, lobe.flags, 1};
+  s.wi = wi;
+  s.f = lobe.f(wo, wi);
+  s.flags = lobe.flags;
+  return out;
 }
 
 }  // namespace lampyris

@@ -62,6 +62,7 @@ class Sphere final : public Quadric {
     DVec3 axis;
   };
   std::optional<Cone> coneFrom(const Vec3& from) const;
+  std::optional<ShapeSample> sampleCone(const Cone& cone, const Vec2& u) const;
 
   double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
   bool full_;
@@ -145,46 +146,56 @@ std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) cons
 }
 
 std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
-  if (!full_ || similarity() == 0) return std::nullopt;
+  std::optional<Cone> cone;
+  if (!full_ || similarity() == 0) return cone;
   const double r = worldRadius_;
   const DVec3 toCentre = worldCentre_ - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
-  if (!(d2 > r * r) || !std::isfinite(d2)) return std::nullopt;
+  if (!(d2 > r * r) || !std::isfinite(d2)) return cone;
   const double d = std::sqrt(d2), inverse = 1 / d;
   const double sin = r * inverse, sin2 = sin * sin;
-  return Cone{sin2 / (1 + safeSqrt(1 - sin2)), sin, d, toCentre * inverse};
+  Cone& c = cone.emplace();
+  c.oneMinusCos = sin2 / (1 + safeSqrt(1 - sin2));
+  c.sin = sin;
+  c.distance = d;
+  c.axis = toCentre * inverse;
+  return cone;
 }
 
 std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3& from,
                                                     const Vec2& u) const {
   const auto cone = coneFrom(from);
-  if (!cone) return Shape::sampleSolidAngle(element, from, u);
-  const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
-  if (!(area(element) > 0)) return std::nullopt;
+  return cone ? sampleCone(*cone, u) : Shape::sampleSolidAngle(element, from, u);
+}
+
+std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) const {
+  std::optional<ShapeSample> out;
+  const float pdf = uniformConePdf(static_cast<float>(cone.oneMinusCos));
+  if (!(area(0) > 0)) return out;
   if (!std::isfinite(pdf)) {
     countRejection(Rejection::LightDensity);
-    return std::nullopt;
+    return out;
   }
 
   // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
   // centre: α = asin(sin θ / sin θmax) − θ.
-  const double h = static_cast<double>(u.x) * cone->oneMinusCos, cosTheta = 1 - h;
+  const double h = static_cast<double>(u.x) * cone.oneMinusCos, cosTheta = 1 - h;
   const double sinTheta = std::sqrt(h * (2 - h));
-  const double ratio = std::min(1., sinTheta / cone->sin), rest = std::sqrt(1 - ratio * ratio);
+  const double ratio = std::min(1., sinTheta / cone.sin), rest = std::sqrt(1 - ratio * ratio);
   const double cosAlpha = ratio * sinTheta + cosTheta * rest;
   const double sinAlpha = ratio * cosTheta - sinTheta * rest;
   // Azimuth and frame are good to float precision, which turns the draw as a whole by that much.
   const Vec2 around = circlePoint(u.y);
-  const Frame frame = Frame::fromZ(Vec3(-cone->axis));
-  const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * cone->axis;
-  ShapeSample s;
+  const Frame frame = Frame::fromZ(Vec3(-cone.axis));
+  const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * cone.axis;
+  ShapeSample& s = out.emplace();
   // The map may be off from a similarity by its rounding: M Mᵀn / |Mᵀn| is on the surface exactly.
   const DVec3 mapped = onto_ * n;
   s.p = Vec3(worldCentre_ + worldRadius_ / std::sqrt(glm::dot(n, mapped)) * mapped);
   s.pError = worldError(s.p);
   s.n = orientation() * Vec3(n);
   s.pdf = pdf;
-  return s;
+  return out;
 }
 
 float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,

@@ -195,11 +195,11 @@ void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray
 
   const DVec3 areaNormal = c.areaNormal();
   const Vec3 vertexNormal = interpolatedNormal(c, b);
-  out.n = orientedNormal(areaNormal, vertexNormal);
+  Vec3 n = orientedNormal(areaNormal, vertexNormal);
   // A ray tracer may report the edge of a triangle without area; it has no normal of its own.
-  if (out.n == Vec3(0)) out.n = normalize(-ray.d);
-  if (!setParameters(c, b, areaNormal, out)) completeBasis(out.n, out.dpdu, out.dpdv);
-  out.shading.n = out.n;
+  if (n == Vec3(0)) n = normalize(-ray.d);
+  if (!setParameters(c, b, areaNormal, out)) completeBasis(n, out.dpdu, out.dpdv);
+  out.n = out.shading.n = n;
   out.shading.dpdu = out.dpdu;
   out.shading.dpdv = out.dpdv;
 
@@ -287,29 +287,33 @@ std::optional<ShapeHit> TriangleMesh::locate(uint32_t element, const Vec3& p, co
 
 std::optional<ShapeSample> TriangleMesh::sampleSolidAngle(uint32_t element, const Vec3& from,
                                                           const Vec2& u) const {
+  std::optional<ShapeSample> out;
   const Corners c = corners(element);
   const View view(c, from);
-  if (!(view.volume > 0)) return std::nullopt;  // seen edge on
-  ShapeSample s;
-  Vec3 b;
+  if (!(view.volume > 0)) return out;  // seen edge on
+  Vec3 b, p;
+  float pdf;
   if (view.isWide()) {
     const SphericalTriangle seen = view.spherical();
-    s.pdf = 1 / seen.solidAngle();
+    pdf = 1 / seen.solidAngle();
     b = seen.sample(u);
-    s.p = c.point(b);
+    p = c.point(b);
   } else {
     const Vec2 b01 = sampleUniformTriangle(u);
     b = Vec3(b01.x, b01.y, std::max(0.f, 1 - b01.x - b01.y));
-    s.p = c.point(b);
-    s.pdf = view.uniformPdf(distance(s.p, from));
+    p = c.point(b);
+    pdf = view.uniformPdf(distance(p, from));
   }
-  if (!(s.pdf > 0) || !std::isfinite(s.pdf)) {
+  if (!(pdf > 0) || !std::isfinite(pdf)) {
     countRejection(Rejection::LightDensity);
-    return std::nullopt;
+    return out;
   }
+  ShapeSample& s = out.emplace();
+  s.p = p;
   s.pError = c.pointError(b);
   s.n = orientedNormal(view.areaNormal, interpolatedNormal(c, b));
-  return s;
+  s.pdf = pdf;
+  return out;
 }
 
 float TriangleMesh::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
