@@ -3,6 +3,7 @@
 
 #include "base/light.h"
 #include "core/frame.h"
+#include "core/huge_page_object.h"
 #include "core/sampling.h"
 #include "lights/emission.h"
 #include "lights/surface_emission.h"
@@ -40,7 +41,7 @@ float projectedShare(float cosTheta) {
 }
 
 /// All elements of a shape; for those of constant radiance nothing is kept.
-class DiffuseAreaLight final : public Light {
+class DiffuseAreaLight final : public Light, public HugePageObject {
  public:
   /// `varying` in place of `radiance` if it is not null.
   DiffuseAreaLight(const Shape& shape, const Rgb& radiance,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
+#include "core/huge_page_object.h"
 #include "lights/cone_emission.h"
 #include "lights/emission.h"
 #include "lights/point_sample.h"
@@ -16,7 +17,7 @@ struct PointLightParameters {
   }
 };
 
-class PointLight final : public Light {
+class PointLight final : public Light, public HugePageObject {
  public:
   PointLight(const Vec3& p, const Rgb& intensity) : p_(p), intensity_(intensity) {}
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/light.h"
+#include "core/huge_page_object.h"
 #include "lights/cone_emission.h"
 #include "lights/emission.h"
 #include "lights/point_sample.h"
@@ -23,7 +24,7 @@ struct SpotLightParameters {
   }
 };
 
-class SpotLight final : public Light {
+class SpotLight final : public Light, public HugePageObject {
  public:
   SpotLight(const SpotLightParameters& p, const Rgb& intensity, const Transform& lightToWorld)
       : p_(lightToWorld.point(p.from)),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/frame.h"
+#include "core/huge_page_object.h"
 #include "core/rejections.h"
 #include "core/sampling.h"
 #include "shapes/quadric.h"
@@ -31,7 +32,7 @@ struct SphereParameters {
   }
 };
 
-class Sphere final : public Quadric {
+class Sphere final : public Quadric, public HugePageObject {
  public:
   Sphere(const SphereParameters& p, const ShapeContext& context);
 
