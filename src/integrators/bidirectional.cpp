@@ -7,6 +7,7 @@
 // Cost a sample, for maxdepth d: 2 d rays, up to (d + 1) (d + 2) / 2 shadow rays.
 #include "integrators/bidirectional.h"
 
+#include "core/rejections.h"
 #include "integrators/aov_surface.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/light_connection.h"
