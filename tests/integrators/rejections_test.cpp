@@ -173,7 +173,7 @@ TEST(Rejections, OfTheFilm) {
                     [&] { EXPECT_FALSE(scene.film().addSplat(Vec2(3), Rgb(kInfinity))); }),
             1u);
   const auto box = filterRegistry().get("box", {}).create({}, {});
-  LightImage image({Int2(0), Int2(4)}, *box);
+  LightImage image({Int2(0), Int2(4)}, box.get());
   image.open(1e-12);
   EXPECT_GE(counted(Rejection::DarkenedSplat, [&] { image.add(Vec2(1.5f), Rgb(1e12f)); }), 3u);
   TinyView view;
