@@ -176,8 +176,8 @@ TEST(LightsInGlass, ShineThroughIt) {
     sum += 1 - dielectricFresnel(std::sqrt(1 - eta * eta * b2 / (glass * glass)), eta);
   }
   const double irradiance = M_PI * sum / kSteps * r * r / (distance * distance);
-  for (const Place& place : {Place{}, Place{1e-6, DVec3(0)}, Place{1e6, DVec3(0)},
-                             Place{1, DVec3(1e5, 7e4, -4e4)}}) {
+  for (const Place& place :
+       {Place{}, Place{1e-6, DVec3(0)}, Place{1e6, DVec3(0)}, Place{1, DVec3(1e5, 7e4, -4e4)}}) {
     SCOPED_TRACE(testing::PrintToString(place));
     const DVec3 middle = place(DVec3(0)), eye = place({0, 0, 0.5});
     for (TinyView view : pathViews("\"integer maxdepth\" 4")) {
