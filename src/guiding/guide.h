@@ -57,6 +57,8 @@ class LocalGuide {
   /// direction, `more` where those do not suffice.
   virtual Vec3 sample(float u, const Vec2& v, NumberSequence& more) const = 0;
   virtual float pdf(const Vec3& wi) const = 0;
+  /// Luminance that the point scatters of the light that is known; 0: not known.
+  virtual float scattered() const { return 0; }
 };
 
 /// Frozen while a pass is rendered, changed by learn() between passes only.

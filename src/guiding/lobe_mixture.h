@@ -16,6 +16,7 @@ class LobeMixture final : public LocalGuide {
   bool moveTo(const GuidePoint& point, const DirectionWeight& scattering) override;
   Vec3 sample(float u, const Vec2& v, NumberSequence& more) const override;
   float pdf(const Vec3& wi) const override;
+  float scattered() const override { return front_.total + back_.total; }
 
  private:
   /// Lobes on one side of a surface, or of a medium, by parts: loops over lobes use vector

@@ -18,9 +18,9 @@ class ScatteringPoint final : public DirectionWeight {
     return bsdf_ ? bsdf_->f(wo_, wi) * bsdf_->absCosTheta(wi) : Rgb(phase_->p(wo_, wi));
   }
   float weight(const Vec3& wi) const override {
-    // Where the BSDF hardly varies, its cosine says all that a weight needs.
-    if (bsdf_ && bsdf_->isDiffuse() && !bsdf_->transmits()) return bsdf_->absCosTheta(wi);
-    return scattered(wi).luminance();
+    if (!bsdf_ || !bsdf_->isDiffuse() || bsdf_->transmits()) return scattered(wi).luminance();
+    if (diffuse_ < 0) diffuse_ = bsdf_->f(wo_, faceForward(bsdf_->frame().z, wo_)).luminance();
+    return diffuse_ * bsdf_->absCosTheta(wi);
   }
   float pdf(const Vec3& wi) const { return bsdf_ ? bsdf_->pdf(wo_, wi) : phase_->p(wo_, wi); }
   const Bsdf* bsdf() const { return bsdf_; }
@@ -31,6 +31,7 @@ class ScatteringPoint final : public DirectionWeight {
   const Bsdf* bsdf_ = nullptr;
   const PhaseFunction* phase_ = nullptr;
   Vec3 wo_;
+  mutable float diffuse_ = -1;  ///< luminance of a BSDF that hardly varies; < 0: not known yet
 };
 
 /// A direction drawn from a DirectionMixture.

@@ -45,6 +45,7 @@ struct VolumePathEstimator::Path {
   /// it: a guide draws directions that matter more often, for which their throughput is smaller.
   /// (By the larger of the two, so that it blows up no path that went against the guide.)
   Rgb unguided{1};
+  float promise = 0;   ///< radiance to come at the first vertex of which a guide told it; 0: none
   float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
   int bounces = 0, interfaces = 0;
   bool emissionAdded = false;  ///< of what the ray ends at
@@ -253,8 +254,12 @@ void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
     path.memory->turns.back().before += added, path.memory->turns.back().direct += added;
 }
 
-/// Russian roulette with the probabilities of pbrt-v3.
+/// Russian roulette with the probabilities of pbrt-v3; for paths that a guide knows, see below.
 bool VolumePathEstimator::survives(Path& path) const {
+  return path.promise > 0 || survivesByThroughput(path);
+}
+
+bool VolumePathEstimator::survivesByThroughput(Path& path) const {
   if (path.bounces <= kFirstRouletteBounce) return true;
   const float most =
       std::max(path.unguided.maxComponent(), path.throughput.maxComponent()) * path.etaScale;
@@ -264,6 +269,25 @@ bool VolumePathEstimator::survives(Path& path) const {
   if (path.stream.next1D() < end) return false;
   path.throughput /= 1 - end;
   path.unguided /= 1 - end;
+  return true;
+}
+
+/// Russian roulette by the radiance that is still to come, as the guide expects it, in relation to
+/// what was to come at the first vertex with a guide (Vorba and Křivánek 2016, "Adjoint-Driven
+/// Russian Roulette and Splitting in Light Transport Simulation", without the splitting).
+bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) {
+  constexpr float kDispensable = 0.5f, kLeast = 0.3f;
+  const float expected = path.throughput.luminance() * scattered;
+  if (!(path.promise > 0)) {
+    path.promise = expected;
+    return true;
+  }
+  const float worth = expected / (kDispensable * path.promise);
+  if (!(worth < 1)) return true;
+  const float chance = std::max(kLeast, worth);
+  if (path.numbers.next() >= chance) return false;
+  path.throughput /= chance;
+  path.unguided /= chance;
   return true;
 }
 
@@ -280,6 +304,9 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   }
   const DirectionMixture mixture(point, guide, guidance_.ownShare);
   if (lighting_.hasLights() && !specular) path.radiance += lightAt(path, mixture, point);
+  if (guide ? !survivesByPromise(path, guide->scattered())
+            : path.promise > 0 && !survivesByThroughput(path))
+    return false;
   // Where rays find no light, the last one need not be traced.
   if (lastRay && !path.entersBelow && !lighting_.hasVisibleLights()) return false;
 

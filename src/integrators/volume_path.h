@@ -56,6 +56,8 @@ class VolumePathEstimator final : public RadianceEstimator {
   bool onSurface(Path& path, const Hit& hit) const;
   void addEmission(Path& path, const Rgb& found) const;
   bool survives(Path& path) const;
+  bool survivesByThroughput(Path& path) const;
+  static bool survivesByPromise(Path& path, float scattered);
   bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
   bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
   bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
