@@ -8,6 +8,10 @@ namespace {
 /// A cell that has seen this many samples, in terms of samples of equal weight, is divided: its
 /// parts still see enough to fit lobes to.
 constexpr double kDivideAt = 150;
+/// Photons that a cell is divided at, and that a part gets at least; the number of samples that
+/// they count for in the end.
+constexpr size_t kDivideSeedAt = 300, kLeastSeed = 30;
+constexpr double kSeedWorth = 32;
 /// A surface passes about four of the eight parts.
 constexpr double kPartOfParent = 0.25;
 
@@ -54,6 +58,51 @@ void CellTree::learn(const GuideSample& sample, size_t quota) {
   inserted_ += nodes_[at].cell.learn(sample, inserted_ < quota);
 }
 
+struct CellTree::SeededCell {
+  size_t node;
+  Vec3 centre;
+  float size;
+  int depth;
+  std::vector<GuideSample> photons;
+};
+
+/// Level by level, so that parts start from what the whole has learned.
+void CellTree::seed(std::vector<GuideSample>& photons, size_t quota) {
+  std::vector<SeededCell> cells;
+  cells.push_back({0, centre_, size_, 0, std::move(photons)});
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const SeededCell at = std::move(cells[i]);
+    const auto count = static_cast<float>(at.photons.size());
+    RecordCell& cell = nodes_[at.node].cell;
+    const size_t step = 1 + at.photons.size() / kDivideSeedAt;
+    for (size_t k = 0; k < at.photons.size(); k += step) {
+      GuideSample s = at.photons[k];
+      s.radiance *= count / (at.size * at.size);
+      inserted_ += cell.learn(s, inserted_ < quota);
+    }
+    cell.endPass();
+    if (cell.samples() > kSeedWorth) cell.fade(kSeedWorth / cell.samples());
+    if (at.photons.size() < kDivideSeedAt || at.depth >= kDeepest) continue;
+    std::array<SeededCell, 8> parts;
+    for (const GuideSample& s : at.photons) {
+      Vec3 centre = at.centre;
+      float size = at.size;
+      SeededCell& part = parts[static_cast<size_t>(descend(s.p, centre, size))];
+      part.centre = centre, part.size = size, part.depth = at.depth + 1;
+      part.photons.push_back(s);
+    }
+    for (size_t child = 0; child < 8; ++child) {
+      const size_t copied = nodes_[at.node].cell.records().size();
+      if (parts[child].photons.size() < kLeastSeed || inserted_ + copied > quota) continue;
+      inserted_ += copied;
+      nodes_[at.node].divided = true;
+      parts[child].node = addNode(RecordCell(nodes_[at.node].cell, kPartOfParent));
+      nodes_[at.node].children[child] = static_cast<int32_t>(parts[child].node);
+      cells.push_back(std::move(parts[child]));
+    }
+  }
+}
+
 void CellTree::endPass() {
   inserted_ = 0;
   std::vector<int> depth(nodes_.size());
@@ -64,6 +113,17 @@ void CellTree::endPass() {
     for (const int32_t child : n.children)
       if (child != kNoChild) depth[static_cast<size_t>(child)] = depth[i] + 1;
   }
+}
+
+RecordCell::Moments CellTree::moments() const {
+  RecordCell::Moments sum;
+  for (const Node& n : nodes_) {
+    if (n.divided) continue;
+    RecordCell::Moments m = n.cell.moments();
+    if (!n.cell.pays()) m.mixed = m.own;
+    sum += m;
+  }
+  return sum;
 }
 
 void CellTree::save(ByteWriter& out) const {

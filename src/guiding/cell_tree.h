@@ -20,6 +20,8 @@ class CellTree {
 
   /// Counts a sample within the root. Makes at most `quota` records in all until endPass().
   void learn(const GuideSample& sample, size_t quota);
+  /// Starts from photons, whose `radiance` is power per cosine.
+  void seed(std::vector<GuideSample>& photons, size_t quota);
   /// Fits the cells; those that have seen enough will be divided.
   void endPass();
 
@@ -29,6 +31,8 @@ class CellTree {
     Children children;
   };
   const std::vector<Node>& nodes() const { return nodes_; }
+  /// Of all cells together; where lobes do not pay, of BSDFs alone.
+  RecordCell::Moments moments() const;
   size_t recordCount() const;
   size_t memory() const;
 
@@ -40,6 +44,7 @@ class CellTree {
   static int descend(const Vec3& p, Vec3& centre, float& size);
 
  private:
+  struct SeededCell;
   size_t addNode(RecordCell cell);
 
   Vec3 centre_;

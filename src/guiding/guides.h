@@ -19,8 +19,8 @@ struct GuideSettings {
 };
 
 /// Null for "none". `settings.name` must be one of those declared; `photons` is asked by guides
-/// that want some.
-std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene,
+/// that want some; `paths` is how many the camera sends, as far as is known.
+std::unique_ptr<Guide> makeGuide(const GuideSettings& settings, const Scene& scene, int64_t paths,
                                  const PhotonSource& photons);
 
 }  // namespace lampyris

@@ -13,7 +13,8 @@ namespace lampyris {
 struct GuidePhoton {
   Vec3 p{0};
   Vec3 wi{0, 0, 1};  ///< unit, towards where it comes from
-  float power = 0;   ///< luminance, ≥ 0
+  float power = 0;   ///< luminance, ≥ 0; all photons together carry the light's power
+  Vec3 n{0};         ///< of the surface, on the side of wi
 };
 
 /// Each part of the array has its median in the middle, the lower ones before it.

@@ -22,8 +22,8 @@ constexpr float kAlike = 0.8f;
 /// Bounds sample weights, so that no sum overflows: far beyond radiances that images hold.
 constexpr double kLargestWeight = 1e60;
 
-/// Lobes pay if they save this much of the second moment, once so many samples tell.
-constexpr double kWorthwhile = 1, kLeastGains = 100;
+/// Samples that found light, before which nothing is said of what lobes save.
+constexpr double kLeastGains = 100;
 
 constexpr size_t kMostRecords = 32;
 
@@ -38,7 +38,8 @@ RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(pare
 }
 
 void RecordCell::fade(double factor) {
-  for (double* sum : {&s_, &i_, &i2_, &ownMoment_, &mixedMoment_, &gains_}) *sum *= factor;
+  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples})
+    *sum *= factor;
   for (SignificanceRecord& r : records_) r.fade(factor);
 }
 
@@ -49,15 +50,16 @@ void RecordCell::countGain(const GuideSample& s, float guidePdf) {
   const double mixed = 0.5 * (own + static_cast<double>(guidePdf));
   const double share = g / static_cast<double>(s.pdf) * g;
   if (!(share > 0) || !(mixed > 0)) return;
-  gains_ += 1;
-  ownMoment_ += std::min(share / own, kLargestWeight);
-  mixedMoment_ += std::min(share / mixed, kLargestWeight);
+  moments_.samples += 1;
+  moments_.own += std::min(share / own, kLargestWeight);
+  moments_.mixed += std::min(share / mixed, kLargestWeight);
 }
 
 void RecordCell::save(ByteWriter& out) const {
   out.put(room_);
   out.put(normal_);
-  for (const double sum : {s_, i_, i2_, ownMoment_, mixedMoment_, gains_, sinceFit_, nextFit_})
+  for (const double sum :
+       {s_, i_, i2_, moments_.own, moments_.mixed, moments_.samples, sinceFit_, nextFit_})
     out.put(sum);
   out.put(records_);
 }
@@ -65,13 +67,14 @@ void RecordCell::save(ByteWriter& out) const {
 void RecordCell::restore(ByteReader& in) {
   in.get(room_);
   in.get(normal_);
-  for (double* sum : {&s_, &i_, &i2_, &ownMoment_, &mixedMoment_, &gains_, &sinceFit_, &nextFit_})
+  for (double* sum :
+       {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples, &sinceFit_, &nextFit_})
     in.get(*sum);
   in.get(records_);
 }
 
 bool RecordCell::pays() const {
-  return gains_ < kLeastGains || mixedMoment_ < kWorthwhile * ownMoment_;
+  return moments_.samples < kLeastGains || moments_.mixed < moments_.own;
 }
 
 bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {

@@ -22,6 +22,8 @@ class RecordCell {
 
   /// Counts a sample. True if it made a record; `mayInsert` false: it must not.
   bool learn(const GuideSample& sample, bool mayInsert);
+  /// What was counted counts so much less.
+  void fade(double factor);
   /// Fits, and drops what does not help.
   void endPass();
 
@@ -34,6 +36,13 @@ class RecordCell {
   const Vec3& normal() const { return normal_; }
   /// Ĩ times 2π: mean weight of all samples, the flux of all directions.
   double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
+  /// Second moments of what samples give to the image: as they would be from BSDFs alone, and from
+  /// an even mixture with the lobes; and how many found light.
+  struct Moments {
+    double own = 0, mixed = 0, samples = 0;
+    void operator+=(const Moments& o) { own += o.own, mixed += o.mixed, samples += o.samples; }
+  };
+  const Moments& moments() const { return moments_; }
   /// False where enough samples say that BSDFs alone would do better than with the lobes.
   bool pays() const;
 
@@ -42,7 +51,6 @@ class RecordCell {
 
  private:
   void countGain(const GuideSample& sample, float guidePdf);
-  void fade(double factor);
   void fit();
   void mergeAlike();
 
@@ -50,9 +58,7 @@ class RecordCell {
   std::vector<SignificanceRecord> records_;
   Vec3 normal_{0};
   double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares
-  /// Second moments of what samples give to the image: as they would be from BSDFs alone, and from
-  /// an even mixture with the lobes; and how many found light.
-  double ownMoment_ = 0, mixedMoment_ = 0, gains_ = 0;
+  Moments moments_;
   double sinceFit_ = 0, nextFit_;
 };
 

@@ -49,6 +49,10 @@ void SignificanceSettings::declare(Declaration& d) {
   d.add("ncache", nearest, "Significance cache: records used at a point, at most.")
       .range(1, SignificanceCache::kMostNearest);
   d.add("maxrecords", maxRecords, "Significance cache: records in all, at most.").range(0, 1e8);
+  d.add("seedphotons", photons,
+        "Significance cache: photons emitted before the image to start from, at most; no more than "
+        "one for 16 paths of the camera.")
+      .range(0, 1e8);
 }
 
 SignificanceCache::SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene)
@@ -108,6 +112,28 @@ void SignificanceCache::learn(std::span<const GuideSample> samples) {
     }
     waiting_[at->second].push_back(s);
   }
+}
+
+void SignificanceCache::seed(std::span<const GuidePhoton> photons) {
+  std::vector<GuideSample> samples;
+  samples.reserve(photons.size());
+  for (const GuidePhoton& p : photons) {
+    GuideSample s{p.p, p.n, p.wi, 0, 1};
+    constexpr float kGrazing = 0.1f;
+    s.radiance = p.power / std::max(kGrazing, absDot(p.n, p.wi));
+    if (std::isfinite(s.radiance)) samples.push_back(s);
+  }
+  learn(samples);
+  learned_ = 0;
+  const size_t quota =
+      trees_.empty() ? 0 : static_cast<size_t>(settings_.maxRecords) / 2 / trees_.size();
+  parallelFor(trees_.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      trees_[i].seed(waiting_[i], quota);
+      waiting_[i] = {};
+    }
+  });
+  freeze();
 }
 
 void SignificanceCache::endPass() {
@@ -172,16 +198,16 @@ bool SignificanceCache::restore(std::string_view bytes) {
   return in.ok() && in.atEnd();
 }
 
+/// Each tree counts by its samples, so that no rare bright one decides alone.
 bool SignificanceCache::pays() const {
-  constexpr double kWorthwhile = 0.02;
-  double all = 0, helped = 0;  // samples; where too little is known, lobes may help yet
-  for (const CellTree& t : trees_)
-    for (const CellTree::Node& n : t.nodes()) {
-      if (n.divided) continue;
-      all += n.cell.samples();
-      if (n.cell.pays()) helped += n.cell.samples();
-    }
-  return !(helped < kWorthwhile * all);
+  constexpr double kWorthwhile = 0.08;
+  double all = 0, saved = 0;
+  for (const CellTree& t : trees_) {
+    const RecordCell::Moments m = t.moments();
+    all += m.samples;
+    if (m.mixed < m.own) saved += m.samples * (1 - m.mixed / m.own);
+  }
+  return !(saved < kWorthwhile * all);
 }
 
 size_t SignificanceCache::memory() const {

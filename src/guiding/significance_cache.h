@@ -9,6 +9,7 @@
 #include "core/bounds.h"
 #include "core/parameters.h"
 #include "guiding/cell_tree.h"
+#include "guiding/photon_tree.h"
 
 namespace lampyris {
 
@@ -16,6 +17,7 @@ struct SignificanceSettings {
   float radius = 0.1f;       ///< width of an undivided cell, in diagonals of the scene
   int nearest = 8;           ///< records used at a point, at most
   int maxRecords = 500'000;  ///< bounds the memory
+  int photons = 100'000;     ///< emitted before the image to start from, at most
   void declare(Declaration& d);
 };
 
@@ -40,6 +42,8 @@ class SignificanceCache final : public Guide {
   SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene);
 
   std::unique_ptr<LocalGuide> makeLocal() const override;
+  /// Starts the records from photons of indirect light; before anything is learned.
+  void seed(std::span<const GuidePhoton> photons);
   void learn(std::span<const GuideSample> samples) override;
   void endPass() override;
   bool pays() const override;

@@ -41,9 +41,12 @@ std::vector<GuidePhoton> traceGuidePhotons(const Scene& scene, int count, int ma
     for (size_t c = begin; c < end; ++c)
       for (size_t i = c * kChunk; i < std::min((c + 1) * kChunk, photons); ++i) {
         tracer.fromLight(Ray(), surfaces, SampleStream(numbers, {Int2(0), i}), nullptr, path, rays);
-        for (size_t v = 2; v < path.size(); ++v)
+        for (size_t v = 2; v < path.size(); ++v) {
+          const SurfaceInteraction& at = path[v].at;
+          const float power = path[v].throughput.luminance() / static_cast<float>(count);
           if (!path[v].bsdf.isSpecular())
-            found[c].push_back({path[v].at.p, path[v].at.wo, path[v].throughput.luminance()});
+            found[c].push_back({at.p, at.wo, power, faceForward(at.n, at.wo)});
+        }
       }
   });
   std::vector<GuidePhoton> all;

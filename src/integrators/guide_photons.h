@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Photons for the photon guide.
+/// Photons for guides.
 #pragma once
 
 #include "base/scene.h"

@@ -49,9 +49,12 @@ class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> 
 
  private:
   uint64_t renderPixels(RenderContext& context, const PixelBounds& pixels) const override {
-    const auto guide = makeGuide(parameters_.guide, context.scene, [&](int count) {
-      return traceGuidePhotons(context.scene, count, parameters_.maxDepth);
-    });
+    const int64_t samples = context.options.sampleCount > 0
+                                ? static_cast<int64_t>(context.options.sampleCount)
+                                : context.sampler.samplesPerPixel();
+    const auto guide = makeGuide(
+        parameters_.guide, context.scene, samples * pixels.area(),
+        [&](int count) { return traceGuidePhotons(context.scene, count, parameters_.maxDepth); });
     Guidance guidance;
     guidance.guide = guide.get();
     guidance.ownShare = parameters_.ownShare;
@@ -60,9 +63,9 @@ class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> 
     GuideTrainer trainer(*guide, guidance, pixels.area());
     if (context.options.firstSample > 0 && !trainer.restore(context.options.learned))
       throw SceneError(location_, "the checkpoint does not hold what this guide has learned");
-    const uint64_t samples = renderPasses(context, pixels, estimator, &trainer);
+    const uint64_t done = renderPasses(context, pixels, estimator, &trainer);
     trainer.report(context.statistics);
-    return samples;
+    return done;
   }
 };
 
@@ -75,7 +78,7 @@ double secondsNow() {
 void GuideTrainer::beginPass(const Pass& pass) {
   pass_ = pass;
   tiles_.resize(pass.tiles);
-  guidance_.use = !retired_ && (passes_ > 0 || !guide_.learns());
+  guidance_.use = !retired_;
   guidance_.collect = !retired_ && !pass.isLast && guide_.learns();
   const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
   const double expected = static_cast<double>(pass.samples) * pixels_ * perPath;

@@ -69,6 +69,24 @@ TEST(SignificanceCache, FindsWhatItWasTaught) {
   EXPECT_FALSE(local->moveTo({Vec3(0.5f), Vec3(0), false}, Even(Vec3(0))));
 }
 
+TEST(SignificanceCache, StartsFromPhotons) {
+  // Light from one direction with the flux 1 on a plane.
+  constexpr int kCount = 40'000;
+  std::vector<GuidePhoton> photons;
+  for (int i = 0; i < kCount; ++i) {
+    const auto u = [i](uint32_t d) { return uniform(9, static_cast<uint64_t>(i), d); };
+    photons.push_back({Vec3(u(0), u(1), 0.5f), kHigh, kHigh.z / kCount, kUp});
+  }
+  SignificanceCache cache({0.6f, 8, 100'000}, kUnitBox);
+  cache.seed(photons);
+  float flux = 0;
+  for (const auto& lobe : cache.find(Vec3(0.4f, 0.6f, 0.5f), kUp).lobes) {
+    EXPECT_GT(dot(lobe.axis, kHigh), 0.99f);
+    flux += lobe.flux;
+  }
+  EXPECT_NEAR(flux, 1, 0.4f);
+}
+
 TEST(SignificanceCache, ExponentsFitTheLight) {
   // A patch of cos > c: mean cosine (1 + c)/2 = (e + 1)/(e + 2).
   for (const float c : {0.5f, 0.9f, 0.98f}) {
