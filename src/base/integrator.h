@@ -17,10 +17,18 @@
 
 namespace lampyris {
 
+/// A direction from which light is known to come: a cosine lobe around it, learned near a point.
+struct LearnedDirection {
+  Vec3 p{0}, direction{0};
+  float exponent = 1, radiance = 0;  ///< of the lobe; at its peak
+};
+
 /// What an integrator has learned while it renders: a checkpoint must hold it.
 class LearnedState {
  public:
   virtual std::string save() const = 0;
+  /// For pictures of it; empty where it is not of that kind.
+  virtual std::vector<LearnedDirection> directions() const { return {}; }
 
  protected:
   ~LearnedState() = default;

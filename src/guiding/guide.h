@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/integrator.h"
 #include "base/medium.h"
 #include "core/statistics.h"
 #include "core/vector.h"
@@ -78,6 +79,8 @@ class Guide {
   /// What has been learned until the last endPass(), so that an equal guide goes on from it to the
   /// same bits. False: the bytes are not of such a guide, which must not be used then.
   virtual std::string save() const = 0;
+  /// As in LearnedState.
+  virtual std::vector<LearnedDirection> directions() const { return {}; }
   virtual bool restore(std::string_view bytes) = 0;
 };
 

@@ -198,6 +198,17 @@ bool SignificanceCache::restore(std::string_view bytes) {
   return in.ok() && in.atEnd();
 }
 
+std::vector<LearnedDirection> SignificanceCache::directions() const {
+  std::vector<LearnedDirection> found;
+  for (const CellTree& t : trees_)
+    for (const CellTree::Node& n : t.nodes()) {
+      if (n.divided || !n.cell.pays()) continue;
+      for (const SignificanceRecord& r : n.cell.records())
+        found.push_back({r.position(), r.direction(), r.exponent(), r.radiance()});
+    }
+  return found;
+}
+
 /// Each tree counts by its samples, so that no rare bright one decides alone.
 bool SignificanceCache::pays() const {
   constexpr double kWorthwhile = 0.08;

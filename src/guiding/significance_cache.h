@@ -50,6 +50,8 @@ class SignificanceCache final : public Guide {
   void report(Statistics& statistics) const override;
   std::string save() const override;
   bool restore(std::string_view bytes) override;
+  /// Of the records that are in use.
+  std::vector<LearnedDirection> directions() const override;
 
   /// The lobes around `p` for surfaces facing `n` (zero: in a medium); empty if nothing is known.
   Lobes find(const Vec3& p, const Vec3& n) const;

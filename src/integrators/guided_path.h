@@ -20,6 +20,7 @@ class GuideTrainer final : public PassObserver {
   void endPass() override;
   void report(Statistics& statistics) const;
   std::string save() const override;
+  std::vector<LearnedDirection> directions() const override { return guide_.directions(); }
   /// False: the bytes are of no such state.
   bool restore(std::string_view bytes);
 

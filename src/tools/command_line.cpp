@@ -25,15 +25,11 @@ struct Command {
 int runHelp(const Arguments&) { return runRender({"--help"}); }
 
 constexpr std::array kCommands = {
-    Command{"assemble", runAssemble},
-    Command{"makesky", runMakeSky},
-    Command{"compare", runCompare},
-    Command{"convert", runConvert},
-    Command{"help-scene", runHelpScene},
-    Command{"info", runInfo},
-    Command{"lights", runLights},
-    Command{"merge", runMerge},
-    Command{"help", runHelp},
+    Command{"assemble", runAssemble},    Command{"makesky", runMakeSky},
+    Command{"compare", runCompare},      Command{"convert", runConvert},
+    Command{"help-scene", runHelpScene}, Command{"info", runInfo},
+    Command{"lights", runLights},        Command{"cache", runCache},
+    Command{"merge", runMerge},          Command{"help", runHelp},
 };
 
 int run(Arguments arguments) {

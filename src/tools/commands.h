@@ -17,6 +17,7 @@ int runInfo(const Arguments& arguments);
 int runMakeSky(const Arguments& arguments);
 int runMerge(const Arguments& arguments);
 int runLights(const Arguments& arguments);
+int runCache(const Arguments& arguments);
 int runHelpScene(const Arguments& arguments);
 
 /// The reference page of all scene parameters, in Markdown.
