@@ -6,7 +6,7 @@
 #include "scene/builder.h"
 #include "tools/cache_picture.h"
 #include "tools/commands.h"
-#include "tools/messages.h"
+#include "tools/with_scene.h"
 
 namespace lampyris {
 
@@ -68,15 +68,8 @@ int runCache(const Arguments& arguments) {
   if (const auto code = parseArguments(app, arguments)) return *code;
   if (!isWritableImagePath(s.out))
     throw UsageError(fmt::format("--out: \"{}\" is no image that can be written", s.out));
-  SourceFiles files;
-  Diagnostics diagnostics(files, [](const std::string& text) { say("{}\n", text); });
-  try {
-    draw(s, files, diagnostics);
-    return kDone;
-  } catch (const SceneError& e) {
-    say("{}\n", formatMessage(files, e.location, "error", e.what()));
-    return kSceneError;
-  }
+  return withScene(
+      false, [&s](SourceFiles& files, Diagnostics& diagnostics) { draw(s, files, diagnostics); });
 }
 
 }  // namespace lampyris

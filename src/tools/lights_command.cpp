@@ -9,7 +9,7 @@
 #include "tools/commands.h"
 #include "tools/light_report.h"
 #include "tools/light_tree_svg.h"
-#include "tools/messages.h"
+#include "tools/with_scene.h"
 
 namespace lampyris {
 
@@ -71,15 +71,8 @@ int runLights(const Arguments& arguments) {
   if (const auto code = parseArguments(app, arguments)) return *code;
   if (!s.out.empty() && !s.out.ends_with(".svg"))
     throw UsageError(fmt::format("--out: expected a name that ends in .svg, got \"{}\"", s.out));
-  SourceFiles files;
-  Diagnostics diagnostics(files, [](const std::string& text) { say("{}\n", text); });
-  try {
-    report(s, files, diagnostics);
-    return kDone;
-  } catch (const SceneError& e) {
-    say("{}\n", formatMessage(files, e.location, "error", e.what()));
-    return kSceneError;
-  }
+  return withScene(
+      false, [&s](SourceFiles& files, Diagnostics& diagnostics) { report(s, files, diagnostics); });
 }
 
 }  // namespace lampyris

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <iterator>
 
+#include "tools/with_scene.h"
+
 namespace lampyris {
 
 namespace {
@@ -21,11 +23,7 @@ void toStandardOutput(std::string_view text) {
 
 int runPrint(const RenderSettings& settings) {
   const std::string& scene = settings.scenes.front();
-  SourceFiles files;
-  Diagnostics diagnostics(files, [&settings](const std::string& text) {
-    if (!settings.quiet) fmt::print(stderr, "{}\n", text);
-  });
-  try {
+  return withScene(settings.quiet, [&](SourceFiles& files, Diagnostics& diagnostics) {
     const bool isFile = scene != "-";
     const uint16_t file =
         isFile ? files.open(scene)
@@ -34,11 +32,7 @@ int runPrint(const RenderSettings& settings) {
     const std::string folder = isFile ? std::filesystem::path(scene).parent_path().string() : ".";
     printScene(file, folder, *settings.print, files, diagnostics, toStandardOutput);
     if (std::fflush(stdout) != 0) throw IoError("cannot write to standard output");
-    return kDone;
-  } catch (const SceneError& e) {
-    fmt::print(stderr, "{}\n", formatMessage(files, e.location, "error", e.what()));
-    return kSceneError;
-  }
+  });
 }
 
 }  // namespace lampyris
