@@ -5,6 +5,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lampyris;
+  // Its many options take longer to state than to read.
+  static RenderArguments parser;
   return fuzz::run<UsageError>(data, size, fuzz::kMebi + 1024 * size, [](std::string_view text) {
     Arguments arguments{"scene.pbrt"};
     while (!text.empty()) {
@@ -12,6 +14,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       arguments.emplace_back(text.substr(0, end));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
-    fuzz::keep(parseRenderSettings(arguments));
+    fuzz::keep(parser.parse(arguments));
   });
 }

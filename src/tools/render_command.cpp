@@ -281,7 +281,7 @@ int RenderSession::run() {
 }  // namespace
 
 int runRender(const Arguments& arguments) {
-  const auto settings = parseRenderSettings(arguments);
+  const auto settings = RenderArguments().parse(arguments);
   if (!settings) return kDone;
   if (settings->print) return runPrint(*settings);
   ignoreWriteSignals();

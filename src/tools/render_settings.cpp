@@ -124,14 +124,37 @@ void check(const RenderSettings& s) {
     throw UsageError("--crop: expected x0 x1 y0 y1 with x0 < x1 and y0 < y1");
 }
 
-}  // namespace
-
-std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
-  RenderSettings s;
+/// The options as CLI11 leaves them.
+struct Raw {
+  RenderSettings settings;
   std::string pixel, snapshots, samples, aovs;
   std::vector<std::string> defines;
   bool cat = false, toPly = false;
-  CLI::App app("Lampyris renders pbrt-v3 scene files.", "lampyris");
+};
+
+RenderSettings interpret(Raw raw) {
+  RenderSettings& s = raw.settings;
+  if (!raw.pixel.empty()) s.pixel = parsePixel(raw.pixel);
+  for (const std::string& d : raw.defines) s.build.overrides.push_back(parseDefine(d));
+  if (!raw.snapshots.empty()) s.snapshots = parseSnapshots(raw.snapshots);
+  if (!raw.samples.empty()) s.samples = parseSamples(raw.samples);
+  if (!raw.aovs.empty()) s.build.overrides.emplace_back("film.aovs", raw.aovs);
+  if (raw.cat || raw.toPly) s.print = PrintOptions{raw.toPly};
+  check(s);
+  if (s.checkpoint.empty()) s.checkpoint = s.resume;
+  return std::move(s);
+}
+
+}  // namespace
+
+struct RenderArguments::Options {
+  Raw raw;
+  CLI::App app{"Lampyris renders pbrt-v3 scene files.", "lampyris"};
+};
+
+RenderArguments::RenderArguments() : options_(std::make_unique<Options>()) {
+  auto& [raw, app] = *options_;
+  RenderSettings& s = raw.settings;
   app.set_version_flag("--version", "lampyris " LAMPYRIS_VERSION);
   app.footer(kFooter);
   app.add_option("scene", s.scenes, "Scene files; - is standard input");
@@ -143,12 +166,12 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
                  "Render until the estimated relative error is this, e.g. 0.01; with --spp or "
                  "--seconds: or until that is reached")
       ->check(CLI::PositiveNumber);
-  app.add_option("--snapshots", snapshots,
+  app.add_option("--snapshots", raw.snapshots,
                  "Write OUT-NAME.exr on the way, at times and sample counts: 0.5s,1s or 1spp,4spp");
-  app.add_option("--samples", samples,
+  app.add_option("--samples", raw.samples,
                  "Render only samples a to b - 1 of the --spp of each pixel, into a partial file "
                  "NAME.part for lampyris merge: a:b");
-  app.add_option("--aov", aovs,
+  app.add_option("--aov", raw.aovs,
                  fmt::format("Layers to write into EXR files, with commas between: {}",
                              fmt::join(kAovNames, ", ")));
   app.add_option("-o,--out,--outfile", s.outputs,
@@ -163,7 +186,8 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
       ->expected(4)
       ->allow_extra_args(false)
       ->check(CLI::Range(0., 1.));
-  app.add_option("--pixel", pixel, "Render only pixel x,y and print it; --verbose: each sample");
+  app.add_option("--pixel", raw.pixel,
+                 "Render only pixel x,y and print it; --verbose: each sample");
   app.add_option("--checkpoint", s.checkpoint, "File to save the state in now and then");
   app.add_option("--checkpoint-interval", s.checkpointInterval, "Seconds between checkpoints")
       ->check(CLI::NonNegativeNumber)
@@ -172,7 +196,7 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
                  "Checkpoint to go on from (and to update, without --checkpoint)");
   app.add_option("--stats", s.statistics, "JSON file for the statistics");
   app.add_option(
-         "-D,--define", defines,
+         "-D,--define", raw.defines,
          "kind.parameter=value or kind=plugin: overrides the scene's integrator, sampler, film, "
          "camera, filter or lightsampler")
       ->expected(1)
@@ -181,19 +205,18 @@ std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments) {
   app.add_flag("--quick", s.quick, "A quarter of the resolution, one sample a pixel");
   app.add_flag("-q,--quiet", s.quiet, "Only errors");
   app.add_flag("-v,--verbose", s.verbose, "All statistics");
-  app.add_flag("--cat", cat, "Print the scene as one text in an even layout, and render nothing");
-  app.add_flag("--toply", toPly,
+  app.add_flag("--cat", raw.cat,
+               "Print the scene as one text in an even layout, and render nothing");
+  app.add_flag("--toply", raw.toPly,
                "The same, with triangle meshes in PLY files, which are written beside the scene");
-  if (parseArguments(app, splitCrop(arguments))) return std::nullopt;
-  if (!pixel.empty()) s.pixel = parsePixel(pixel);
-  for (const std::string& d : defines) s.build.overrides.push_back(parseDefine(d));
-  if (!snapshots.empty()) s.snapshots = parseSnapshots(snapshots);
-  if (!samples.empty()) s.samples = parseSamples(samples);
-  if (!aovs.empty()) s.build.overrides.emplace_back("film.aovs", aovs);
-  if (cat || toPly) s.print = PrintOptions{toPly};
-  check(s);
-  if (s.checkpoint.empty()) s.checkpoint = s.resume;
-  return s;
+}
+
+RenderArguments::~RenderArguments() = default;
+
+std::optional<RenderSettings> RenderArguments::parse(const Arguments& arguments) {
+  options_->raw = {};
+  if (parseArguments(options_->app, splitCrop(arguments))) return std::nullopt;
+  return interpret(options_->raw);
 }
 
 }  // namespace lampyris

@@ -2,6 +2,7 @@
 /// What the command line wants of a render.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,18 @@ struct RenderSettings {
   bool quiet = false, verbose = false, quick = false;
 };
 
-/// None where there is nothing to render (--help): the exit code is then 0. Throws UsageError.
-std::optional<RenderSettings> parseRenderSettings(const Arguments& arguments);
+/// Reads command lines, each anew.
+class RenderArguments {
+ public:
+  RenderArguments();
+  ~RenderArguments();
+
+  /// None where there is nothing to render (--help): the exit code is then 0. Throws UsageError.
+  std::optional<RenderSettings> parse(const Arguments& arguments);
+
+ private:
+  struct Options;
+  std::unique_ptr<Options> options_;
+};
 
 }  // namespace lampyris
