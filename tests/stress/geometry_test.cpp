@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "stress/double_bsdf.h"
@@ -110,12 +112,15 @@ TEST(Needles, OneNeedleAlone) {
 }
 
 TEST(Needles, FloorsOfThemHaveNoCracks) {
-  // A fan of needles under a sun; what shines from below is a million times as bright.
+  // A fan of needles under a sun; what shines from below is a million times as bright. Their
+  // corners come in any order, so that neighbours see the edge between them differently.
   constexpr int kNeedles = 2000;
   std::string points = "0 -4 0 ", indices;
   for (int i = 0; i <= kNeedles; ++i) {
     points += fmt::format("{:.9g} 3 0 ", 8. * i / kNeedles - 4);
-    if (i > 0) indices += fmt::format("0 {} {} ", i, i + 1);
+    std::array<int, 3> needle{0, i, i + 1};
+    std::rotate(needle.begin(), needle.begin() + i % 3, needle.end());
+    if (i > 0) indices += fmt::format("{} ", fmt::join(needle, " "));
   }
   const std::string world =
       "LightSource \"distant\" \"point from\" [0 0 1] \"point to\" [0 0 0]\n" + matte(0.5f) +
@@ -125,9 +130,16 @@ TEST(Needles, FloorsOfThemHaveNoCracks) {
       "1e6 1e6]\n" +
       square(5) + "AttributeEnd\n";
   for (TinyView view : pathViews(kOneBounce)) {
-    view.camera = R"("orthographic" "float screenwindow" [-0.5 0.5 -0.5 0.5])";
+    view.lookAt = "41 -57 50  0 0 0  0 0 1";
+    view.camera = R"("perspective" "float fov" 0.6)";
     view.resolution = 32;
-    expectRadiance(view, tinyScene(view, world), {0.5 / M_PI, 1e-6}, 4);
+    const std::string scene = tinyScene(view, world);
+    expectRadiance(view, scene, {0.5 / M_PI, 1e-6}, 4);
+    // One crack is lost in the noise that it makes.
+    TinyScene again(scene);
+    again.render(64);
+    const std::vector<double> pixels = again.greens();
+    EXPECT_LT(*std::max_element(pixels.begin(), pixels.end()), 1);
   }
 }
 
