@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/control_group.h"
 #include "core/error.h"
 
 namespace lampyris {
@@ -26,38 +27,6 @@ std::optional<double> kilobytesOf(const char* file, const std::string& key) {
   while (std::getline(in, line))
     if (line.starts_with(key)) return 1024 * std::strtod(line.c_str() + key.size(), nullptr);
   return std::nullopt;
-}
-
-std::optional<double> numberIn(const std::string& file) {
-  std::ifstream in(file);
-  double value = 0;
-  return in >> value ? std::optional(value) : std::nullopt;
-}
-
-/// What the control group, or one that it is in, leaves (cgroup v2; v1 names its files otherwise).
-double leftByControlGroup() {
-  std::ifstream in("/proc/self/cgroup");
-  std::string line;
-  double left = kInfinite;
-  const auto look = [&](const std::string& folder, const char* most, const char* now) {
-    const auto limit = numberIn(folder + most), used = numberIn(folder + now);
-    if (limit && used) left = std::min(left, std::max(0., *limit - *used));
-  };
-  while (std::getline(in, line)) {
-    const size_t path = line.find('/');
-    if (path == std::string::npos) continue;
-    const bool second = line.starts_with("0::");
-    if (!second && line.find(":memory:") == std::string::npos) continue;
-    const std::string root = second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
-    for (std::string group = line.substr(path);; group.resize(group.rfind('/'))) {
-      if (second)
-        look(root + group, "/memory.max", "/memory.current");
-      else
-        look(root + group, "/memory.limit_in_bytes", "/memory.usage_in_bytes");
-      if (group.empty()) break;
-    }
-  }
-  return left;
 }
 
 double leftByAddressSpace() {
