@@ -8,6 +8,7 @@
 #include <map>
 
 #include "accelerators/embree_geometry.h"
+#include "accelerators/embree_memory.h"
 #include "core/memory.h"
 #include "scene/build_state.h"
 #include "scene/light_builder.h"
@@ -117,25 +118,22 @@ void reportSizes(const BuildState& state, const BuiltShapes& built, const Geomet
   set("lights", scene.lightTable.size());
 }
 
-/// Embree takes about so much while it builds, beside the meshes themselves.
-constexpr double kTriangleBytes = 100, kInstanceBytes = 600;
-
-/// Names the largest shape, though all of them count.
+/// Names the shape of the most triangles or other elements, though all count.
 void expectGeometryMemory(const BuiltShapes& built, const GeometryDescription& g) {
-  size_t triangles = 0, most = 0;
+  size_t triangles = 0, others = 0, most = 0;
   SourceLocation where;
   for (const BuiltShape& s : built.shapes) {
-    const size_t count = s.primitive.shape->triangles().triangleCount;
-    triangles += count;
+    const Shape& shape = *s.primitive.shape;
+    const size_t count = shape.elementCount();
+    (shape.triangles().triangleCount > 0 ? triangles : others) += count;
     if (count <= most) continue;
     most = count;
     where = s.description->plugin.parameters.location;
   }
-  expectMemory(kTriangleBytes * static_cast<double>(triangles) +
-                   kInstanceBytes * static_cast<double>(g.instances.size()),
-               fmt::format("the ray tracing structure of {} triangles (of this shape: {}) and {} "
-                           "instances",
-                           triangles, most, g.instances.size()),
+  expectMemory(estimateEmbreeMemory(g),
+               fmt::format("the ray tracing structure of {} triangles, {} elements of other shapes "
+                           "(of this shape: {}) and {} instances",
+                           triangles, others, most, g.instances.size()),
                where);
 }
 

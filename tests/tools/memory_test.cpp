@@ -55,6 +55,13 @@ TEST_F(Memory, WhatIsTooLargeIsNamed) {
       "0 0 0 1 0]");
   expectTooLarge(errorOf("other.pbrt"),
                  "other.pbrt:11:1: error: subdivision into 1.68e+07 triangles needs about 3.9 GiB");
+  std::string curve = "Shape \"curve\" \"float splitdepth\" 10 \"point P\" [";
+  for (int i = 0; i < 3 * 8000 + 1; ++i) curve += fmt::format("{} {} 0 ", i, i % 7);
+  writeWith(curve + "]");
+  expectTooLarge(
+      errorOf("other.pbrt"),
+      "other.pbrt:11:1: error: the ray tracing structure of 0 triangles, 8192000 elements "
+      "of other shapes (of this shape: 8192000) and 0 instances needs about 1.1 GiB");
 }
 
 TEST_F(Memory, TheEstimateIsNearThePeak) {
