@@ -7,10 +7,6 @@ namespace lampyris::test {
 
 namespace {
 
-std::string withDepth(const std::string& integrator, int depth) {
-  return "\"" + integrator + "\" \"integer maxdepth\" " + std::to_string(depth);
-}
-
 /// `world` by "bdpt" and by "path", for the view's camera.
 void expectPathsImage(const std::string& world, int depth, uint64_t samples, uint64_t pathSamples,
                       TinyView view = roomView("")) {
@@ -25,13 +21,8 @@ TEST(Bdpt, EqualsPathAtEveryDepth) {
 }
 
 TEST(Bdpt, EqualsPathForEveryLight) {
-  const std::string floor = matte(0.6f) + square(2) +
-                            "AttributeBegin\nTranslate 0 0 0.4\nShape \"sphere\" \"float radius\" "
-                            "0.3\nAttributeEnd\n";
-  for (const char* light :
-       {R"("point" "point from" [0.3 0 1])", R"("spot" "point from" [0 0 1.5] "point to" [0 0 0])",
-        R"("distant" "point from" [1 0 2] "point to" [0 0 0])", R"("infinite")"})
-    expectPathsImage(std::string("LightSource ") + light + "\n" + floor, 3, 64, 64);
+  expectPathsImage(ballUnder(R"("point" "point from" [0.3 0 1])"), 3, 64, 64);
+  for (const std::string& light : kLightsAbove) expectPathsImage(ballUnder(light), 3, 64, 64);
   expectPathsImage(
       "LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]\n"
       "LightSource \"distant\" \"point from\" [1 0 2] \"point to\" [0 0 0]\n" +
@@ -49,20 +40,12 @@ TEST(Bdpt, TwoSidedAndUnsampledEmittersCount) {
 }
 
 TEST(Bdpt, EqualsPathThroughGlassAndGloss) {
-  const std::string glass =
-      "LightSource \"infinite\" \"rgb L\" [0.3 0.3 0.3]\n"
-      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [9 9 9]\nTranslate -0.5 0.2 1.9\n"
-      "Rotate 180 1 0 0\n" +
-      square(0.6f) + "AttributeEnd\n" + matte(0.6f) + square(2) +
-      "Material \"glass\"\nAttributeBegin\nTranslate -0.4 0 0.35\nShape \"sphere\" \"float "
-      "radius\" 0.3\nAttributeEnd\n"
-      "Material \"glass\" \"float uroughness\" 0.3 \"float vroughness\" 0.3\n"
-      "AttributeBegin\nTranslate 0.4 0 0.35\nShape \"sphere\" \"float radius\" 0.3\n"
-      "AttributeEnd\n"
-      "Material \"uber\" \"rgb Kr\" [0.3 0.3 0.3]\n"
-      "AttributeBegin\nTranslate 0 0.8 0.35\nShape \"sphere\" \"float radius\" 0.3\n"
-      "AttributeEnd\n";
-  expectPathsImage(glass, 6, 128, 512);
+  expectPathsImage(
+      "LightSource \"infinite\" \"rgb L\" [0.3 0.3 0.3]\n" + glassRoom() +
+          "Material \"glass\" \"float uroughness\" 0.3 \"float vroughness\" 0.3\n"
+          "AttributeBegin\nTranslate 0 0.8 0.35\nShape \"sphere\" \"float radius\" 0.3\n"
+          "AttributeEnd\n",
+      6, 128, 512);
 }
 
 TEST(Bdpt, ShadingNormalsChangeNothing) {
@@ -75,9 +58,7 @@ TEST(Bdpt, ShadingNormalsChangeNothing) {
 }
 
 TEST(Bdpt, EqualsPathForEveryCamera) {
-  for (const char* camera :
-       {R"("perspective" "float fov" 60 "float lensradius" 0.1 "float focaldistance" 1.5)",
-        R"("orthographic" "float screenwindow" [-0.8 0.8 -0.8 0.8])", R"("environment")"}) {
+  for (const std::string& camera : kCameras) {
     TinyView view = roomView("");
     view.camera = camera;
     expectPathsImage(room(), 3, 64, 128, view);
@@ -85,36 +66,21 @@ TEST(Bdpt, EqualsPathForEveryCamera) {
 }
 
 TEST(Bdpt, CamerasThatScaleMirrorAndShearSeeTheSame) {
-  for (const char* transform : {"Scale -1 1 1\n", "Scale 3 3 3\n", "Scale 1 2 1.5\n"}) {
-    const auto image = [&](const std::string& integrator, uint64_t seed) {
-      BuildOptions options;
-      options.seed = seed;
-      TinyScene scene(transform + tinyScene(roomView(integrator), room()), options);
-      scene.render(64);
-      return scene.greens();
+  for (const std::string transform : {"Scale -1 1 1\n", "Scale 3 3 3\n", "Scale 1 2 1.5\n"}) {
+    const auto scene = [&](const char* integrator) {
+      return transform + tinyScene(roomView(withDepth(integrator, 3)), room());
     };
-    auto difference = image(withDepth("bdpt", 3), 1);
-    const auto other = image(withDepth("path", 3), 2);
-    for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i];
-    EXPECT_EQ(meanTest(difference, 0), "") << transform;
+    expectSameMean(scene("bdpt"), scene("path"), 64, 64);
   }
 }
 
 TEST(Bdpt, FiltersSpreadSplatsAsTheySpreadSamples) {
-  for (const char* filter : {"gaussian", "mitchell"}) {
-    const auto image = [&](const std::string& integrator, uint64_t seed) {
-      std::string text = tinyScene(roomView(integrator), room());
-      text.replace(text.find("\"box\""), 5, std::string("\"") + filter + "\"");
-      BuildOptions options;
-      options.seed = seed;
-      TinyScene scene(text, options);
-      scene.render(128);
-      return scene.greens();
+  for (const std::string filter : {"\"gaussian\"", "\"mitchell\""}) {
+    const auto scene = [&](const char* integrator) {
+      std::string text = tinyScene(roomView(withDepth(integrator, 2)), room());
+      return text.replace(text.find("\"box\""), 5, filter);
     };
-    auto difference = image(withDepth("bdpt", 2), 1);
-    const auto other = image(withDepth("path", 2), 2);
-    for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i];
-    EXPECT_EQ(meanTest(difference, 0), "") << filter;
+    expectSameMean(scene("bdpt"), scene("path"), 128, 128);
   }
 }
 
@@ -123,17 +89,8 @@ TEST(Bdpt, InterfacesAreInvisible) {
                            "AttributeEnd\n" +
                            "AttributeBegin\nMaterial \"\"\nTranslate 0.2 -0.3 "
                            "0.4\nShape \"sphere\" \"float radius\" 0.35\nAttributeEnd\n";
-  const auto image = [&](const std::string& world, uint64_t seed) {
-    BuildOptions options;
-    options.seed = seed;
-    TinyScene scene(tinyScene(roomView(withDepth("bdpt", 3)), world), options);
-    scene.render(64);
-    return scene.greens();
-  };
-  auto difference = image(room() + pane, 1);
-  const auto other = image(room(), 2);
-  for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i];
-  EXPECT_EQ(meanTest(difference, 0), "");
+  const TinyView view = roomView(withDepth("bdpt", 3));
+  expectSameMean(tinyScene(view, room() + pane), tinyScene(view, room()), 64, 64);
 }
 
 TEST(Bdpt, SmallAndLargeScenesLookTheSame) {

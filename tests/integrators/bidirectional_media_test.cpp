@@ -7,9 +7,6 @@ namespace lampyris::test {
 
 namespace {
 
-std::string withDepth(const std::string& integrator, int depth) {
-  return "\"" + integrator + "\" \"integer maxdepth\" " + std::to_string(depth);
-}
 std::vector<std::string> bidirectional(int depth) { return {withDepth("bdpt", depth), mlt(depth)}; }
 
 std::string homogeneous(const std::string& absorption, const std::string& scattering,

@@ -34,22 +34,58 @@ inline TinyView roomView(const std::string& integrator) {
   return v;
 }
 
-/// The pixels of two renders with different seeds differ by noise only.
-inline void expectSameMean(const TinyView& a, const TinyView& b, const std::string& world,
-                           uint64_t samples, uint64_t otherSamples = 0) {
-  TinyScene one(tinyScene(a, world));
+inline std::string withDepth(const std::string& integrator, int depth) {
+  return "\"" + integrator + "\" \"integer maxdepth\" " + std::to_string(depth);
+}
+
+/// A ball on a floor, and a light.
+inline std::string ballUnder(const std::string& light) {
+  return "LightSource " + light + "\n" + matte(0.6f) + square(2) +
+         "AttributeBegin\nTranslate 0 0 0.4\nShape \"sphere\" \"float radius\" 0.3\n"
+         "AttributeEnd\n";
+}
+inline const std::vector<std::string> kLightsAbove = {
+    R"("spot" "point from" [0 0 1.5] "point to" [0 0 0])",
+    R"("distant" "point from" [1 0 2] "point to" [0 0 0])", R"("infinite")"};
+
+/// A lamp above balls of glass and of half a mirror.
+inline std::string glassRoom() {
+  return "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [9 9 9]\nTranslate -0.5 0.2 1.9\n"
+         "Rotate 180 1 0 0\n" +
+         square(0.6f) + "AttributeEnd\n" + matte(0.6f) + square(2) +
+         "Material \"glass\"\nAttributeBegin\nTranslate -0.4 0 0.35\nShape \"sphere\" \"float "
+         "radius\" 0.3\nAttributeEnd\n"
+         "Material \"uber\" \"rgb Kr\" [0.3 0.3 0.3]\n"
+         "AttributeBegin\nTranslate 0.4 0 0.35\nShape \"sphere\" \"float radius\" 0.3\n"
+         "AttributeEnd\n";
+}
+
+/// For roomView().
+inline const std::vector<std::string> kCameras = {
+    R"("perspective" "float fov" 60 "float lensradius" 0.1 "float focaldistance" 1.5)",
+    R"("orthographic" "float screenwindow" [-0.8 0.8 -0.8 0.8])", R"("environment")"};
+
+/// The pixels of two scenes, rendered with different seeds, differ by noise only.
+inline void expectSameMean(const std::string& a, const std::string& b, uint64_t samples,
+                           uint64_t otherSamples) {
+  TinyScene one(a);
   BuildOptions otherSeed;
   otherSeed.seed = 77;
-  TinyScene two(tinyScene(b, world), otherSeed);
+  TinyScene two(b, otherSeed);
   one.render(samples);
-  two.render(otherSamples > 0 ? otherSamples : samples);
+  two.render(otherSamples);
   EXPECT_EQ(one.badSamples() + two.badSamples(), 0);
   std::vector<double> difference = one.greens();
   const auto other = two.greens();
   double mean = 0;
   for (size_t i = 0; i < difference.size(); ++i) difference[i] -= other[i], mean += other[i];
   EXPECT_GT(mean, 0);
-  EXPECT_EQ(meanTest(difference, 0), "") << a.integrator << " against " << b.integrator;
+  EXPECT_EQ(meanTest(difference, 0), "") << a << "against\n" << b;
+}
+inline void expectSameMean(const TinyView& a, const TinyView& b, const std::string& world,
+                           uint64_t samples, uint64_t otherSamples = 0) {
+  expectSameMean(tinyScene(a, world), tinyScene(b, world), samples,
+                 otherSamples > 0 ? otherSamples : samples);
 }
 inline void expectSameMean(const std::string& a, const std::string& b, const std::string& world,
                            uint64_t samples) {

@@ -73,7 +73,7 @@ TEST(PrimarySamples, SmallStepsKeepTheSeed) {
   EXPECT_EQ(samples.steadySeed(), first);
 }
 
-std::string path(int depth) { return "\"path\" \"integer maxdepth\" " + std::to_string(depth); }
+std::string path(int depth) { return withDepth("path", depth); }
 
 void expectPathsImage(const std::string& world, int depth, TinyView view = roomView("")) {
   TinyView reference = view;
@@ -94,32 +94,13 @@ TEST(Mlt, ChainsHaveNoStartUpBias) {
 }
 
 TEST(Mlt, EqualsPathForOtherLights) {
-  const std::string floor = matte(0.6f) + square(2) +
-                            "AttributeBegin\nTranslate 0 0 0.4\nShape \"sphere\" \"float radius\" "
-                            "0.3\nAttributeEnd\n";
-  for (const char* light :
-       {R"("spot" "point from" [0 0 1.5] "point to" [0 0 0])",
-        R"("distant" "point from" [1 0 2] "point to" [0 0 0])", R"("infinite")"})
-    expectPathsImage(std::string("LightSource ") + light + "\n" + floor, 3);
+  for (const std::string& light : kLightsAbove) expectPathsImage(ballUnder(light), 3);
 }
 
-TEST(Mlt, EqualsPathThroughGlass) {
-  expectPathsImage(
-      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [9 9 9]\nTranslate -0.5 0.2 1.9\n"
-      "Rotate 180 1 0 0\n" +
-          square(0.6f) + "AttributeEnd\n" + matte(0.6f) + square(2) +
-          "Material \"glass\"\nAttributeBegin\nTranslate -0.4 0 0.35\nShape \"sphere\" \"float "
-          "radius\" 0.3\nAttributeEnd\n"
-          "Material \"uber\" \"rgb Kr\" [0.3 0.3 0.3]\n"
-          "AttributeBegin\nTranslate 0.4 0 0.35\nShape \"sphere\" \"float radius\" 0.3\n"
-          "AttributeEnd\n",
-      5);
-}
+TEST(Mlt, EqualsPathThroughGlass) { expectPathsImage(glassRoom(), 5); }
 
 TEST(Mlt, EqualsPathForEveryCamera) {
-  for (const char* camera :
-       {R"("perspective" "float fov" 60 "float lensradius" 0.1 "float focaldistance" 1.5)",
-        R"("orthographic" "float screenwindow" [-0.8 0.8 -0.8 0.8])", R"("environment")"}) {
+  for (const std::string& camera : kCameras) {
     TinyView view = roomView("");
     view.camera = camera;
     expectPathsImage(room(), 3, view);

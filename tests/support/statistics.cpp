@@ -28,6 +28,14 @@ double upperGamma(double a, double x) {
   return front / (x + 1 - a - f);
 }
 
+/// P(|T| ≥ t) for Student's T, by a normal variable (Wallace 1959, "Bounds on normal approximations
+/// to Student's and the chi-square distributions"): for t up to 10, no more than 14 % off from 7
+/// degrees of freedom on.
+double studentPValue(double t, double dof) {
+  const double z = (8 * dof + 1) / (8 * dof + 3) * std::sqrt(dof * std::log1p(t * t / dof));
+  return std::erfc(z / std::sqrt(2.));
+}
+
 }  // namespace
 
 double chiSquarePValue(double statistic, int dof) { return upperGamma(dof / 2., statistic / 2); }
@@ -113,7 +121,7 @@ std::string meanTest(const std::vector<double>& values, double expected, double 
   const double error = std::sqrt(m2 / (n * (n - 1)));
   const double excess = std::abs(mean - expected) - slack;
   if (excess <= 0) return "";
-  const double p = std::erfc(excess / (error * std::sqrt(2.)));
+  const double p = studentPValue(excess / error, n - 1);
   return p >= falseAlarm
              ? ""
              : fmt::format("mean {} ± {}, expected {} (p = {})", mean, error, expected, p);
