@@ -34,7 +34,8 @@ const std::vector<float>& cloud() {
           for (int x = 0; x < kSide; ++x) {
             const float d = length(Vec3(x, y, z) - centre) / radius;
             if (d >= 1) continue;
-            float& to = v[static_cast<size_t>((z * kSide + y) * kSide + x)];
+            float& to = v[(static_cast<size_t>(z) * kSide + static_cast<size_t>(y)) * kSide +
+                          static_cast<size_t>(x)];
             full += to == 0 ? 1 : 0;
             to = std::max(to, 1 - d * d);
           }

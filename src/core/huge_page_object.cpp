@@ -60,11 +60,11 @@ class Filler {
   Page* page_ = nullptr;
   size_t used_ = kPageBytes;
 };
+thread_local Filler filler;
 
 }  // namespace
 
 void* HugePageObject::operator new(size_t bytes) {
-  thread_local Filler filler;
   return filler.take(bytes);
 }
 

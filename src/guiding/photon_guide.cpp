@@ -39,7 +39,7 @@ class PhotonHistogram final : public LocalGuide {
     const int ring = std::clamp(static_cast<int>(sine2 * kRings), 0, kRings - 1);
     const int sector =
         std::clamp(static_cast<int>((turn < 0 ? turn + 1 : turn) * kSectors), 0, kSectors - 1);
-    return static_cast<size_t>(ring * kSectors + sector);
+    return static_cast<size_t>(ring) * kSectors + static_cast<size_t>(sector);
   }
 
   const PhotonTree& tree_;
@@ -72,8 +72,8 @@ bool PhotonHistogram::moveTo(const GuidePoint& point, const DirectionWeight& sca
 Vec3 PhotonHistogram::sample(float u, const Vec2& v, NumberSequence&) const {
   size_t cell = 0;
   for (; cell + 1 < share_.size() && u >= share_[cell]; ++cell) u -= share_[cell];
-  const auto ring = static_cast<float>(cell / kSectors),
-             sector = static_cast<float>(cell % kSectors);
+  const size_t row = cell / kSectors, column = cell % kSectors;
+  const auto ring = static_cast<float>(row), sector = static_cast<float>(column);
   const float sine2 = std::min((ring + v.x) / kRings, 1.f);
   return frame_.toWorld(sphericalDirection(std::sqrt(sine2), std::sqrt(1 - sine2),
                                            2 * kPi * (sector + v.y) / kSectors));

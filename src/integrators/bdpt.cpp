@@ -69,6 +69,7 @@ double BdptEstimator::typicalSample(const RenderContext& context, const PixelBou
   RenderState state;
   double sum = 0;
   for (uint64_t i = 0; i < kTypicalSamples; ++i) {
+    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): renderedPixels() are at least one.
     const uint64_t at = i * stride, pixel = at % count;
     const Int2 offset(static_cast<int>(pixel % static_cast<uint64_t>(pixels.size().x)),
                       static_cast<int>(pixel / static_cast<uint64_t>(pixels.size().x)));

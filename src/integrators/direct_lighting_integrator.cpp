@@ -206,7 +206,7 @@ class DirectLightingIntegrator final : public Integrator {
       : settings_(settings),
         strategy_(strategy),
         distribution_(std::move(distribution)),
-        adaptive_(adaptive) {}
+        adaptive_(std::move(adaptive)) {}
 
   uint64_t render(RenderContext& context) const override {
     const PixelBounds pixels =

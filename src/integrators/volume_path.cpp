@@ -220,7 +220,7 @@ bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
   path.entersBelow = scattersBelow_ && material && material->scattersBelow();
   path.below = false;
   if (!scatter(path, ScatteringPoint(bsdf, at.wo), where)) return false;
-  return !path.below || enterBelow(path, at, *material);
+  return !(path.below && material) || enterBelow(path, at, *material);
 }
 
 /// Goes on where light that leaves at `at` has entered the body. As in pbrt-v3 that is no bounce.
