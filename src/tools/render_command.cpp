@@ -20,6 +20,7 @@
 #include "tools/render_settings.h"
 #include "tools/run_report.h"
 #include "tools/saved_state.h"
+#include "tools/with_scene.h"
 
 namespace lampyris {
 
@@ -45,15 +46,12 @@ std::string readStandardInput() {
 /// One scene file from its text to its images.
 class RenderSession {
  public:
-  RenderSession(const RenderSettings& settings, std::string scene)
-      : settings_(settings),
-        scene_(std::move(scene)),
-        diagnostics_(files_, [this](const std::string& text) {
-          if (!settings_.quiet) say("{}\n", text);
-        }) {}
+  RenderSession(const RenderSettings& settings, std::string scene, SourceFiles& files,
+                Diagnostics& diagnostics)
+      : settings_(settings), scene_(std::move(scene)), files_(files), diagnostics_(diagnostics) {}
 
-  /// Prints scene errors itself, since only it can tell their places; returns the exit code.
-  int run();
+  /// Returns whether it was interrupted.
+  bool run();
 
  private:
   std::unique_ptr<RenderJob> load(const BuildOptions& options);
@@ -74,9 +72,9 @@ class RenderSession {
   const RenderSettings& settings_;
   const std::string scene_;
   std::string standardInput_;
-  SourceFiles files_;
+  SourceFiles& files_;
   Statistics statistics_;
-  Diagnostics diagnostics_;
+  Diagnostics& diagnostics_;
   std::unique_ptr<RenderJob> job_;
   std::string part_;                         ///< the partial file to write; empty: images
   std::optional<InterruptGuard> interrupt_;  ///< once the scene is loaded
@@ -241,41 +239,36 @@ void RenderSession::checkIntegrator() const {
         "this integrator has no samples of single pixels: {} cannot be used with it", option));
 }
 
-int RenderSession::run() {
-  try {
-    const auto start = std::chrono::steady_clock::now();
-    loadJob();
-    checkIntegrator();
-    report_.scene = scene_;
-    report_.loadSeconds = secondsSince(start);
-    interrupt_.emplace();  // until here there is nothing to lose
-    if (settings_.pixel) {
-      renderPixel();
-    } else {
-      const Outputs outputs = openOutputs();
-      if (!job_->film->aovs().empty() && part_.empty() && !outputs.takesLayers() &&
-          settings_.snapshots.empty())
-        diagnostics_.warn({},
-                          "layers are asked for, but only EXR files can hold them: "
-                          "add --out FILE.exr");
-      if (settings_.samples || !settings_.checkpoint.empty())
-        saved_.emplace(settings_, *job_, files_);
-      if (!settings_.checkpoint.empty()) checkWritable(settings_.checkpoint);
-      statistics_.set("memory", "estimated bytes", expectRenderMemory(*job_, saved_.has_value()));
-      renderImage(outputs);
-      if (!settings_.quiet)
-        say("{}: {}\n", scene_,
-            part_.empty() ? fmt::to_string(fmt::join(outputs.paths(), ", ")) : part_);
-    }
-    report_.warnings = diagnostics_.warnings();
-    statistics_.set("memory", "peak bytes", peakMemory());
-    if (!settings_.quiet) say("{}", summary(report_, statistics_, settings_.verbose));
-    if (!settings_.statistics.empty()) writeStatistics(settings_.statistics, report_, statistics_);
-    return report_.interrupted ? kInterrupted : kDone;
-  } catch (const SceneError& e) {
-    say("{}\n", formatMessage(files_, e.location, "error", e.what()));
-    return kSceneError;
+bool RenderSession::run() {
+  const auto start = std::chrono::steady_clock::now();
+  loadJob();
+  checkIntegrator();
+  report_.scene = scene_;
+  report_.loadSeconds = secondsSince(start);
+  interrupt_.emplace();  // until here there is nothing to lose
+  if (settings_.pixel) {
+    renderPixel();
+  } else {
+    const Outputs outputs = openOutputs();
+    if (!job_->film->aovs().empty() && part_.empty() && !outputs.takesLayers() &&
+        settings_.snapshots.empty())
+      diagnostics_.warn({},
+                        "layers are asked for, but only EXR files can hold them: "
+                        "add --out FILE.exr");
+    if (settings_.samples || !settings_.checkpoint.empty())
+      saved_.emplace(settings_, *job_, files_);
+    if (!settings_.checkpoint.empty()) checkWritable(settings_.checkpoint);
+    statistics_.set("memory", "estimated bytes", expectRenderMemory(*job_, saved_.has_value()));
+    renderImage(outputs);
+    if (!settings_.quiet)
+      say("{}: {}\n", scene_,
+          part_.empty() ? fmt::to_string(fmt::join(outputs.paths(), ", ")) : part_);
   }
+  report_.warnings = diagnostics_.warnings();
+  statistics_.set("memory", "peak bytes", peakMemory());
+  if (!settings_.quiet) say("{}", summary(report_, statistics_, settings_.verbose));
+  if (!settings_.statistics.empty()) writeStatistics(settings_.statistics, report_, statistics_);
+  return report_.interrupted;
 }
 
 }  // namespace
@@ -287,8 +280,12 @@ int runRender(const Arguments& arguments) {
   ignoreWriteSignals();
   const ThreadLimit threads(settings->threads);
   for (const std::string& scene : settings->scenes) {
-    const int code = RenderSession(*settings, scene).run();
+    bool interrupted = false;
+    const int code = withScene(settings->quiet, [&](SourceFiles& files, Diagnostics& diagnostics) {
+      interrupted = RenderSession(*settings, scene, files, diagnostics).run();
+    });
     if (code != kDone) return code;
+    if (interrupted) return kInterrupted;
   }
   return kDone;
 }
