@@ -133,9 +133,9 @@ uint64_t SppmEstimator::beginPass(uint64_t first, uint64_t) const {
 void SppmEstimator::tracePhoton(uint64_t iteration, size_t number, Subpath& path, RayCounts& rays,
                                 std::vector<Photon>& out) const {
   const PixelBounds pixels = context_.film.bounds();
-  const auto area = static_cast<uint64_t>(pixels.area()),
-             perIteration = (photons_ + area - 1) / area;
-  const uint64_t pixel = number % area;
+  const auto area = static_cast<uint64_t>(pixels.area());
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a film has pixels.
+  const uint64_t perIteration = (photons_ + area - 1) / area, pixel = number % area;
   const auto width = static_cast<uint64_t>(pixels.size().x);
   const Int2 at(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
   SampleStream stream(context_.sampler,
