@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "integrators/registry.h"
+#include "lightdistributions/registry.h"
 #include "support/tiny_scenes.h"
 
 namespace lampyris::test {
@@ -48,6 +49,8 @@ TEST(RenderLoop, ThreadsDoNotChangeABit) {
     if (plugin.schema.find("bootstrapsamples"))
       integrators.back() += " \"integer bootstrapsamples\" 10000";
   }
+  for (const auto& plugin : lightDistributionRegistry().entries())
+    integrators.push_back("\"path\" \"string lightsampler\" \"" + plugin.name + "\"");
   for (const std::string& integrator : integrators)
     for (const std::string& world : {kWorld, kFog + kWorld}) {
       const std::string scene = tinyScene(view(integrator), world), one = rendered(1, scene);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/builder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/parallel.h"
 #include "scene_test.h"
+#include "support/tiny_scenes.h"
 
 namespace lampyris::test {
 namespace {
@@ -16,6 +19,36 @@ TEST(Builder, DefaultsRenderAnEmptyWorld) {
   EXPECT_EQ(job->scene.lightTable.size(), 0u);
   EXPECT_FALSE(job->scene.bounds.empty());
   EXPECT_TRUE(r.warnings.empty()) << r.warnings[0];
+}
+
+TEST(Builder, IsTheSameForAnyNumberOfThreads) {
+  // As many lights, shapes and emitting triangles as several threads share.
+  std::string text = "LightSource \"infinite\"\n";
+  for (int i = 0; i < 20'000; ++i)
+    text += fmt::format("LightSource \"point\" \"point from\" [{} {} 3] \"rgb I\" [{} 1 1]\n",
+                        i % 141, i / 141, i % 7);
+  std::string points, indices;
+  for (int y = 0; y <= 100; ++y)
+    for (int x = 0; x <= 100; ++x) {
+      points += fmt::format("{} {} {} ", x, y, (x * y) % 5);
+      const int a = y * 101 + x;
+      if (x < 100 && y < 100)
+        indices += fmt::format("{} {} {} {} {} {} ", a, a + 1, a + 102, a, a + 102, a + 101);
+    }
+  text += "AttributeBegin AreaLightSource \"diffuse\"\nShape \"trianglemesh\" \"point P\" [" +
+          points + "] \"integer indices\" [" + indices + "]\nAttributeEnd\n";
+  text += "Material \"kdsubsurface\"\n";
+  for (int i = 0; i < 50; ++i) text += "Translate 0 0 1\nShape \"sphere\"\n";
+  const auto image = [&text](int threads) {
+    const ThreadLimit limit(threads);
+    TinyScene scene(tinyScene({}, text));
+    EXPECT_GT(scene.job().scene.lightTable.size(), 39'000u);
+    scene.render(1);
+    return scene.film().save();
+  };
+  const std::string one = image(1);
+  EXPECT_TRUE(image(2) == one);
+  EXPECT_TRUE(image(8) == one);
 }
 
 TEST(Builder, EveryRegistryIsListedOnce) {
