@@ -67,7 +67,7 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
 
 void bounds(const RTCBoundsFunctionArguments* args) {
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
-  shapes.ready.take();
+  buildBegun.take();
   const UserShapes::Element e = shapes.elements[args->primID];
   const Bounds3 b = shapes.primitives[e.primitive].shape->bounds(e.element);
   // Embree's box test is in single precision, the shapes' intersections are not.
@@ -76,6 +76,7 @@ void bounds(const RTCBoundsFunctionArguments* args) {
   out.lower_x = b.min.x - pad.x, out.upper_x = b.max.x + pad.x;
   out.lower_y = b.min.y - pad.y, out.upper_y = b.max.y + pad.y;
   out.lower_z = b.min.z - pad.z, out.upper_z = b.max.z + pad.z;
+  buildDone.give();
 }
 
 void intersect(const RTCIntersectFunctionNArguments* args) {

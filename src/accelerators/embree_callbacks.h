@@ -21,8 +21,10 @@ struct UserShapes {
   };
   const std::vector<Primitive>& primitives;
   std::vector<Element> elements{};
-  HandOver ready{};  ///< to the threads on which Embree asks for bounds
 };
+
+/// To and from the threads on which Embree asks for bounds while it builds.
+inline const HandOver buildBegun, buildDone;
 
 /// Of a UserShapes.
 void bounds(const RTCBoundsFunctionArguments* args);

@@ -151,13 +151,14 @@ SceneHandle buildScene(const std::vector<Primitive>& primitives, size_t userId,
   }
   if (others.elements.empty()) return scene;
   userShapes.push_back(std::move(others));
-  userShapes.back().ready.give();
   attach(scene.get(), userGeometry(userShapes.back()).get(), static_cast<unsigned>(userId));
   return scene;
 }
 
 void commit(RTCScene scene) {
+  embree::buildBegun.give();
   rtcCommitScene(scene);
+  embree::buildDone.take();
   Device::instance().check();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accelerators/embree_motion.h"
 
+#include "accelerators/embree_callbacks.h"
+
 namespace lampyris::embree {
 
 namespace {
@@ -10,6 +12,7 @@ const MovingInstance& movingOf(const void* user) {
 }
 
 void motionBounds(const RTCBoundsFunctionArguments* args) {
+  buildBegun.take();
   const MovingInstance& moving = movingOf(args->geometryUserPtr);
   RTCBounds inner;
   rtcGetSceneBounds(moving.object, &inner);
@@ -21,6 +24,7 @@ void motionBounds(const RTCBoundsFunctionArguments* args) {
   RTCBounds& out = *args->bounds_o;
   out.lower_x = b.min.x, out.lower_y = b.min.y, out.lower_z = b.min.z;
   out.upper_x = b.max.x, out.upper_y = b.max.y, out.upper_z = b.max.z;
+  buildDone.give();
 }
 
 /// Calls trace() while `ray` is in the object's space and the instance is on Embree's stack.
