@@ -15,7 +15,12 @@ namespace fs = std::filesystem;
 /// A folder that looks like / to what reads control groups.
 class ControlGroup : public testing::Test {
  protected:
-  ControlGroup() : root_(testing::TempDir() + "lampyris_control_group") { fs::remove_all(root_); }
+  ControlGroup() {
+    // Tests may run at the same time.
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = testing::TempDir() + "lampyris_control_group_" + test->name();
+    fs::remove_all(root_);
+  }
   ~ControlGroup() override { fs::remove_all(root_); }
 
   void write(const std::string& name, const std::string& text) const {
