@@ -64,9 +64,7 @@ thread_local Filler filler;
 
 }  // namespace
 
-void* HugePageObject::operator new(size_t bytes) {
-  return filler.take(bytes);
-}
+void* HugePageObject::operator new(size_t bytes) { return filler.take(bytes); }
 
 void HugePageObject::operator delete(void* p) noexcept {
   if (p) Page::of(p)->leave();

@@ -34,8 +34,8 @@ struct DirectionTest {
 };
 std::string directionChiSquareTest(const DirectionTest& test, double falseAlarm = kFalseAlarm);
 
-/// t test of a mean: "" if |mean − expected| is within what the standard error allows (plus `slack`,
-/// for errors of quadrature). The values are taken for normal.
+/// t test of a mean: "" if |mean − expected| is within what the standard error allows (plus
+/// `slack`, for errors of quadrature). The values are taken for normal.
 std::string meanTest(const std::vector<double>& values, double expected, double slack = 0,
                      double falseAlarm = kFalseAlarm);
 
