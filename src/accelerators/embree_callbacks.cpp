@@ -71,7 +71,7 @@ void bounds(const RTCBoundsFunctionArguments* args) {
   const UserShapes::Element e = shapes.elements[args->primID];
   const Bounds3 b = shapes.primitives[e.primitive].shape->bounds(e.element);
   // Embree's box test is in single precision, the shapes' intersections are not.
-  const Vec3 pad = 4 * kMachineEpsilon * glm::max(glm::abs(b.min), glm::abs(b.max));
+  const Vec3 pad = 4 * kMachineEpsilon * glm::max(absComponents(b.min), absComponents(b.max));
   RTCBounds& out = *args->bounds_o;
   out.lower_x = b.min.x - pad.x, out.upper_x = b.max.x + pad.x;
   out.lower_y = b.min.y - pad.y, out.upper_y = b.max.y + pad.y;

@@ -172,7 +172,7 @@ constexpr float kMostShrinking = 1e9f;
 float enlargement(const glm::mat4& m, bool singular) {
   if (singular) return kInfinity;
   float most = 0;
-  for (int c = 0; c < 3; ++c) most = std::max(most, maxComponent(glm::abs(Vec3(m[c]))));
+  for (int c = 0; c < 3; ++c) most = std::max(most, maxComponent(absComponents(Vec3(m[c]))));
   return 3 * most;
 }
 
@@ -263,7 +263,8 @@ GeometryHandle EmbreeGeometry::movingInstance(const ObjectInstance& instance, RT
 /// Embree includes both ends of its interval; 0 < t < tMax excludes them. False for rays that can
 /// meet nothing, and for those beyond `limit` or not finite, which Embree must not see.
 bool toEmbree(const Ray& ray, float limit, RTCRay& out) {
-  const Vec3 largest = glm::abs(ray.o) + glm::abs(ray.d);  // a sum keeps NaN, a maximum may not
+  // A sum keeps NaN, a maximum may not.
+  const Vec3 largest = absComponents(ray.o) + absComponents(ray.d);
   if (!(ray.tMax > 0 && largest.x <= limit && largest.y <= limit && largest.z <= limit))
     return false;
   out.org_x = ray.o.x, out.org_y = ray.o.y, out.org_z = ray.o.z;
@@ -317,7 +318,7 @@ void transformSurface(const Transform& t, SurfaceInteraction& at) {
   // Rays come back through the rounded inverse map; what that is off by counts as well.
   const Transform back = t.inverse();
   const Vec3 returned = back.pointError(at.p, Vec3(0));
-  for (int c = 0; c < 3; ++c) at.pError += glm::abs(Vec3(t.matrix()[c])) * returned[c];
+  for (int c = 0; c < 3; ++c) at.pError += absComponents(Vec3(t.matrix()[c])) * returned[c];
 
   const Vec3 n = t.normal(at.n), ns = t.normal(at.shading.n);
   at.n = normalize(n);

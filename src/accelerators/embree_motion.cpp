@@ -35,7 +35,7 @@ void inObjectSpace(const MovingInstance& moving, RTCRay& ray, RTCIntersectContex
   const Vec3 o(ray.org_x, ray.org_y, ray.org_z), d(ray.dir_x, ray.dir_y, ray.dir_z);
   const Vec3 origin = toObject.affinePoint(o), direction = toObject.vector(d);
   // Singular maps leave no direction; what is too large or not finite Embree must not see.
-  const Vec3 largest = glm::abs(origin) + glm::abs(direction);
+  const Vec3 largest = absComponents(origin) + absComponents(direction);
   const float limit = moving.rayLimit;
   if (!(largest.x <= limit && largest.y <= limit && largest.z <= limit) || direction == Vec3(0))
     return;

@@ -136,7 +136,7 @@ inline float LightReceiver::emissionFactor(const LinearLightBVHNode& node, const
 /// length over distance, and too much, but bounded, for the inside of boxes.
 inline float LightReceiver::meanSquaredDistance(const Vec3& d, const Vec3& half, float d2,
                                                 float r2) {
-  const Vec3 toBox = glm::max(glm::abs(d) - half, Vec3(0));
+  const Vec3 toBox = glm::max(absComponents(d) - half, Vec3(0));
   const float least = std::max(r2 * kNearest2, FLT_MIN);
   // The root of the factors, since their product may leave the range of floats.
   return std::sqrt(std::max(least, dot(toBox, toBox))) * std::sqrt(std::max(least, d2 + r2));
@@ -146,8 +146,8 @@ inline double LightReceiver::importance(const LinearLightBVHNode& node) const {
   const Vec3 d = node.center() - p_, half = node.halfExtent();
   if (sides_ == Sides::One) {
     // The box's corner furthest in front; some ulps for the rounding of the terms.
-    const Vec3 n = glm::abs(side_);
-    if (dot(side_, d) + dot(n, half) < -1e-6f * dot(n, glm::abs(d))) return 0;
+    const Vec3 n = absComponents(side_);
+    if (dot(side_, d) + dot(n, half) < -1e-6f * dot(n, absComponents(d))) return 0;
   }
   const float d2 = dot(d, d);
   float r2 = dot(half, half) * 1.00001f;  // so that rounding makes no angle θb too small

@@ -147,7 +147,7 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
   if (node.allNormals != 0xff) factor *= emissionFactor(node, g, invLength, uncertainty);
   if (!at.bothSides()) {
     // The box's corner furthest in front; some ulps for the rounding of the terms.
-    const Vec3 n = glm::abs(at.side());
+    const Vec3 n = absComponents(at.side());
     const Float8 size = n.x * abs(g.toCenter.x) + n.y * abs(g.toCenter.y) + n.z * abs(g.toCenter.z);
     where(dot(at.side(), g.toCenter) + dot(n, g.half) < -1e-6f * size, factor) = 0;
   }

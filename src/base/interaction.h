@@ -49,8 +49,8 @@ struct SurfaceInteraction {
 /// normal there.
 inline Vec3 offsetRayOrigin(const Vec3& p, const Vec3& pError, const Vec3& n, const Vec3& w) {
   // Twice the box: this sum rounds as well, by no more than p did, and so does the ray tracer.
-  const float d = 2 * dot(glm::abs(n), pError);
-  return p + (dot(w, n) < 0 ? -d : d) * n;
+  const float d = 2 * dot(absComponents(n), pError);
+  return p + std::copysign(d, dot(w, n)) * n;
 }
 
 }  // namespace lampyris

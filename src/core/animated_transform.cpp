@@ -77,7 +77,7 @@ Bounds3 AnimatedTransform::bounds(const Bounds3& box) const {
     stray = std::max(stray, (angle * angle * reach + 2 * angle * growth) / (8 * kSteps * kSteps));
   }
   const Vec3 pad = Vec3(static_cast<float>(1.001 * stray)) +
-                   roundingBound(4) * glm::max(glm::abs(out.min), glm::abs(out.max));
+                   roundingBound(4) * glm::max(absComponents(out.min), absComponents(out.max));
   out.min -= pad;
   out.max += pad;
   return out;

@@ -78,9 +78,9 @@ Bounds3 Transform::bounds(const Bounds3& b) const {
 Vec3 Transform::pointError(const Vec3& p, const Vec3& pError) const {
   Vec3 out;
   for (int r = 0; r < 3; ++r) {
-    const Vec3 row = glm::abs(Vec3(matrix_[0][r], matrix_[1][r], matrix_[2][r]));
+    const Vec3 row = absComponents(Vec3(matrix_[0][r], matrix_[1][r], matrix_[2][r]));
     out[r] = (1 + roundingBound(3)) * dot(row, pError) +
-             roundingBound(3) * (dot(row, glm::abs(p)) + std::abs(matrix_[3][r]));
+             roundingBound(3) * (dot(row, absComponents(p)) + std::abs(matrix_[3][r]));
   }
   return out;
 }

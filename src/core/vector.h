@@ -20,6 +20,12 @@ inline float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 inline float distance(const Vec3& a, const Vec3& b) { return length(a - b); }
 inline float absDot(const Vec3& a, const Vec3& b) { return std::abs(dot(a, b)); }
 inline float maxComponent(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+/// Per component. GLM's compiles to branches, which nothing can predict where signs are random.
+template <glm::length_t N, class T>
+glm::vec<N, T> absComponents(glm::vec<N, T> v) {
+  for (glm::length_t i = 0; i < N; ++i) v[i] = std::abs(v[i]);
+  return v;
+}
 inline bool isFinite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -30,7 +36,7 @@ inline bool isFinite(const Vec3& v) {
 inline Vec3 normalize(const Vec3& v) {
   const float square = dot(v, v);
   if (square > 1e-30f && square < 1e30f) return v * (1 / std::sqrt(square));
-  const Vec3 a = glm::abs(v);
+  const Vec3 a = absComponents(v);
   const float scale = std::max(a.x, std::max(a.y, a.z));
   if (!(scale > 0) || !isFinite(v)) return Vec3(0);
   const Vec3 w = v / scale;

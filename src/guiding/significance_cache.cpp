@@ -27,7 +27,7 @@ float usableSize(float size) { return size > 0 && std::isfinite(size) ? size : 1
 /// Which of the six faces of a cube a normal points to; 6 for none.
 uint64_t facing(const Vec3& n) {
   if (n == Vec3(0)) return 6;
-  const Vec3 a = glm::abs(n);
+  const Vec3 a = absComponents(n);
   const int axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
   return 2 * static_cast<uint64_t>(axis) + (n[axis] < 0);
 }

@@ -103,7 +103,7 @@ ProbeHits follow(const Probe& probe, const Geometry& geometry, const Material& m
 /// Density by area with which a probe passes through `entry`.
 float probeDensity(const Bssrdf& bssrdf, const SurfaceInteraction& entry, const Vec3& center,
                    const Frame& frame) {
-  const Vec3 d = frame.toLocal(entry.p - center), n = glm::abs(frame.toLocal(entry.n));
+  const Vec3 d = frame.toLocal(entry.p - center), n = absComponents(frame.toLocal(entry.n));
   const float across[] = {std::hypot(d.y, d.z), std::hypot(d.z, d.x), std::hypot(d.x, d.y)};
   const float cosine[] = {n.x, n.y, n.z};
   float sum = 0;

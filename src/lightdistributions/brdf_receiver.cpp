@@ -116,7 +116,7 @@ struct Boxes {
   }
   /// All of the box is on the other side of the plane; some ulps for the rounding of the terms.
   Float8::mask_type isBehind(const Vec3& side) const {
-    const Vec3 n = glm::abs(side);
+    const Vec3 n = absComponents(side);
     return side.x * x + side.y * y + side.z * z + n.x * hx + n.y * hy + n.z * hz <
            -1e-6f * (n.x * abs(x) + n.y * abs(y) + n.z * abs(z));
   }

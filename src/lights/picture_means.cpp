@@ -131,7 +131,7 @@ float PictureMeans::over(const std::array<Vec2, 3>& uv) const {
   const glm::dvec2 lo = glm::min(corners[0], glm::min(corners[1], corners[2]));
   const glm::dvec2 hi = glm::max(corners[0], glm::max(corners[1], corners[2]));
   // What interpolation in float may be off by.
-  const glm::dvec2 slack = 4e-7 * (1. + glm::max(glm::abs(lo), glm::abs(hi)));
+  const glm::dvec2 slack = 4e-7 * (1. + glm::max(absComponents(lo), absComponents(hi)));
   const glm::dvec2 extent = hi - lo + 2. * slack;
   for (glm::dvec2& c : corners) c -= glm::floor(lo);
   for (const Level& level : levels_) {

@@ -181,7 +181,7 @@ void Curve::surface(uint32_t element, const ShapeHit& hit, const Ray& ray, Surfa
   // Rays that leave start two widths away, as in pbrt-v3, beyond the strip as any of them sees it
   // (offsetRayOrigin() takes twice the error).
   out.pError = toWorld_.pointError(Vec3(0), Vec3(static_cast<float>(width))) +
-               roundingBound(4) * (glm::abs(ray.o) + glm::abs(hit.t * ray.d));
+               roundingBound(4) * (absComponents(ray.o) + absComponents(hit.t * ray.d));
   out.dndu = out.dndv = Vec3(0);
   out.shading = {out.n, out.dpdu, out.dpdv, Vec3(0), Vec3(0)};
 }

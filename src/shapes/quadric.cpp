@@ -58,9 +58,9 @@ void Quadric::finish(const Extent& extent) {
   area_ = static_cast<float>(objectArea_ * meanAreaScale());
   if (!(area_ >= std::numeric_limits<float>::min()) || !std::isfinite(area_)) area_ = 0;
   setBounds(extent);
-  DVec3 terms = glm::abs(translation_);
-  const DVec3 farthest = glm::max(glm::abs(extent.min), glm::abs(extent.max));
-  for (int c = 0; c < 3; ++c) terms += glm::abs(matrix_[c]) * farthest[c];
+  DVec3 terms = absComponents(translation_);
+  const DVec3 farthest = glm::max(absComponents(extent.min), absComponents(extent.max));
+  for (int c = 0; c < 3; ++c) terms += absComponents(matrix_[c]) * farthest[c];
   mapError_ = Vec3(kDoubleError * terms) + Vec3(std::numeric_limits<float>::denorm_min());
 }
 
@@ -85,7 +85,7 @@ void Quadric::setBounds(const Extent& extent) {
   const DVec3 boxCentre = toWorld(middle), axisCentre = toWorld({0, 0, middle.z});
   for (int i = 0; i < 3; ++i) {
     const DVec3 row(matrix_[0][i], matrix_[1][i], matrix_[2][i]);
-    const double box = glm::dot(glm::abs(row), half);
+    const double box = glm::dot(absComponents(row), half);
     const double around = extent.axisRadius * std::hypot(row.x, row.y) + std::abs(row.z) * half.z;
     const double ball = extent.originRadius * glm::length(row);
     const double lo =

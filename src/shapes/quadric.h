@@ -71,7 +71,7 @@ class Quadric : public Shape {
   /// Bounds of the rounding error of a point of the shape, toWorld(·) rounded to float.
   Vec3 worldError(const Vec3& world) const {
     // Half a spacing of floats is kMachineEpsilon at most.
-    return mapError_ + (kMachineEpsilon * 1.001f) * glm::abs(world);
+    return mapError_ + (kMachineEpsilon * 1.001f) * absComponents(world);
   }
 
  private:

@@ -65,8 +65,8 @@ struct TriangleMesh::Corners {
   /// That rounding, and what is proportional to the distance from p0: this sum's errors and the ray
   /// tracer's.
   Vec3 pointError(const Vec3& b) const {
-    return roundingBound(2) * glm::abs(point(b)) +
-           roundingBound(7) * (b.y * glm::abs(p1 - p0) + b.z * glm::abs(p2 - p0));
+    return roundingBound(2) * absComponents(point(b)) +
+           roundingBound(7) * (b.y * absComponents(p1 - p0) + b.z * absComponents(p2 - p0));
   }
 };
 

@@ -53,7 +53,7 @@ class ImagemapTexture final : public Texture<T> {
     // Most vertices of a path carry no differentials.
     if (!c.hasFootprint()) return scale_ * pyramid_->bilinear(0, c.st);
     if (!trilinear_) return scale_ * pyramid_->elliptical(c.st, c.dstdx, c.dstdy, maxAnisotropy_);
-    const Vec2 largest = glm::max(glm::abs(c.dstdx), glm::abs(c.dstdy));
+    const Vec2 largest = glm::max(absComponents(c.dstdx), absComponents(c.dstdy));
     return scale_ * pyramid_->trilinear(c.st, std::max(largest.x, largest.y));
   }
 
