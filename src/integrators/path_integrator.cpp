@@ -182,6 +182,15 @@ bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Materi
     recordSurface(*state.aov, at, bsdf, stream);
   }
   const bool below = scattersBelow_ && material && material->scattersBelow();
+  // Where rays find no light, the last one need not be traced.
+  const bool goesOn = path.bounces + 1 < maxDepth_ || below || lighting_.hasVisibleLights();
+  // Drawn before the lights: the processor does both at once, since neither waits for the other.
+  std::optional<BsdfSample> s;
+  if (goesOn) {
+    stream.setDimension(first + 3);
+    const Vec2 u = stream.next2D();
+    s = bsdf.sample(at.wo, stream.next1D(), u);
+  }
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
     // In place: to copy what was just written, in larger pieces, waits for all of it.
@@ -190,12 +199,6 @@ bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Materi
     path.from.worth = std::min(path.throughput.maxComponent(), 1.f);
     addLightSamples(path, stream, state);
   }
-  // Where rays find no light, the last one need not be traced.
-  if (path.bounces + 1 >= maxDepth_ && !below && !lighting_.hasVisibleLights()) return false;
-
-  stream.setDimension(first + 3);
-  const Vec2 u = stream.next2D();
-  const auto s = bsdf.sample(at.wo, stream.next1D(), u);
   if (!s || !(s->pdf > 0) || s->f.isBlack()) return false;
   path.throughput *= s->f * (bsdf.absCosTheta(s->wi) / s->pdf);
   if (path.throughput.isBlack()) return false;
