@@ -11,7 +11,6 @@ namespace lampyris {
 namespace {
 
 constexpr size_t kWidth = WideLightBVHNode::kWidth;
-constexpr uint32_t kNotInTree = ~uint32_t{0};
 
 /// Takes one of the children with a probability in proportion to its weight; not all are 0. Leaves
 /// a fresh variate in `u`.
@@ -30,11 +29,12 @@ size_t choose(const ChildWeights& weights, double& u) {
 }  // namespace
 
 WideLightBVH::WideLightBVH(const LightBVHAccel& tree) {
-  slotOf_.assign(tree.idCount(), kNotInTree);
+  slotOf_.assign(tree.idCount(), kNone);
   WideLightBVHBuilder(tree, *this).build();
   stats_.lights = lights_.size();
   stats_.nodes = nodes_.size();
-  stats_.bytes = nodes_.size() * sizeof(WideLightBVHNode) + lights_.size() * sizeof(LightId) +
+  stats_.bytes = nodes_.size() * (sizeof(WideLightBVHNode) + sizeof(uint32_t)) +
+                 lights_.size() * sizeof(LightId) + intensitiesBefore_.size() * sizeof(uint16_t) +
                  slotOf_.size() * sizeof(uint32_t);
 }
 
@@ -44,6 +44,38 @@ void WideLightBVH::prefetchBelow(const WideLightBVHNode& node) const {
   const char* const children = reinterpret_cast<const char*>(nodes_.data() + node.firstChild);
   const size_t bytes = static_cast<size_t>(std::popcount(node.inner)) * sizeof(WideLightBVHNode);
   for (size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(children + i);
+}
+
+const WideLightBVHNode* WideLightBVH::alikeCluster(const WideLightBVHNode& node,
+                                                   const ChildWeights& weights, size_t lane) const {
+  if (!(weights.alike[lane] > 0) || node.isLeaf(lane)) return nullptr;
+  const WideLightBVHNode& child = nodes_[node.child(lane)];
+  return child.clusterLights > 0 ? &child : nullptr;
+}
+
+SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, double u,
+                                           double count) const {
+  const uint32_t first = cluster.firstLight, last = first + cluster.clusterLights - 1;
+  // Where it is if all are as strong: not far from where it is.
+  uint32_t place = first + static_cast<uint32_t>(u * cluster.clusterLights);
+  __builtin_prefetch(&lights_[place]);
+  __builtin_prefetch(&intensitiesBefore_[place]);
+  const Units units = unitsOf(first, cluster.clusterLights);
+  const auto at = units.begin + static_cast<uint32_t>(u * (units.end - units.begin));
+  while (intensitiesBefore_[place] > at) --place;
+  while (place < last && intensitiesBefore_[place + 1] <= at) ++place;
+  return {lights_[place], static_cast<float>(count * shareOfIntensity(cluster, place))};
+}
+
+double WideLightBVH::shareOfIntensity(const WideLightBVHNode& cluster, uint32_t place) const {
+  const Units all = unitsOf(cluster.firstLight, cluster.clusterLights), own = unitsOf(place, 1);
+  return static_cast<double>(own.end - own.begin) / (all.end - all.begin);
+}
+
+WideLightBVH::Units WideLightBVH::unitsOf(uint32_t firstLight, uint32_t count) const {
+  // Behind the last one of all there is a 0, as for the first one of any.
+  const uint32_t next = intensitiesBefore_[firstLight + count];
+  return {intensitiesBefore_[firstLight], next > 0 ? next : kWhole};
 }
 
 std::optional<SampledLight> WideLightBVH::sample(const LightReceiver& at, double u) const {
@@ -62,6 +94,8 @@ std::optional<SampledLight> WideLightBVH::descend(uint32_t number, const LightRe
     count *= static_cast<double>(weights.of[lane]) / weights.total();
     if (node.isLeaf(lane))
       return SampledLight{lights_[node.light(lane)], static_cast<float>(count)};
+    if (const WideLightBVHNode* const cluster = alikeCluster(node, weights, lane))
+      return drawByIntensity(*cluster, u, count);
     number = node.child(lane);
   }
 }
@@ -74,7 +108,10 @@ float WideLightBVH::pmf(const LightReceiver& at, LightId light) const {
     const ChildWeights weights = importances(node, at);
     const auto weight = static_cast<double>(weights.of[lane]);
     pmf *= weight > 0 ? weight / weights.total() : 0;
-    return pmf > 0;
+    if (!(pmf > 0)) return false;
+    const WideLightBVHNode* const cluster = alikeCluster(node, weights, lane);
+    if (cluster) pmf *= shareOfIntensity(*cluster, way.place(*this));
+    return !cluster;
   });
   return static_cast<float>(pmf);
 }

@@ -87,6 +87,21 @@ class WideLightBVH {
   friend class WideLightBVHBuilder;
   class Cut;
 
+  static constexpr uint32_t kNone = ~uint32_t{0};
+
+  /// The cluster that one light is drawn from by intensity where that child is chosen; none if it
+  /// is a leaf, no cluster, or one whose lights differ as seen from the point.
+  const WideLightBVHNode* alikeCluster(const WideLightBVHNode& node, const ChildWeights& weights,
+                                       size_t lane) const;
+  static constexpr uint32_t kWhole = 65536;
+  /// What a cluster has of the units of the largest one that it is in.
+  struct Units {
+    uint32_t begin, end;
+  };
+  Units unitsOf(uint32_t firstLight, uint32_t count) const;
+  SampledLight drawByIntensity(const WideLightBVHNode& cluster, double u, double count) const;
+  /// The probability of drawByIntensity() for the light at that place.
+  double shareOfIntensity(const WideLightBVHNode& cluster, uint32_t place) const;
   /// Fetches all that a choice among the node's children may need next, while it is made.
   void prefetchBelow(const WideLightBVHNode& node) const;
   std::optional<SampledLight> descend(uint32_t node, const LightReceiver& at, double u,
@@ -96,8 +111,12 @@ class WideLightBVH {
   uint32_t rootBudget(const LightReceiver& at, const LightSplitting& splitting) const;
 
   HugeVector<WideLightBVHNode> nodes_;
-  HugeVector<LightId> lights_;   ///< by leaf
-  HugeVector<uint32_t> slotOf_;  ///< per light id: 8 × node + lane
+  HugeVector<uint32_t> parents_;  ///< per node: 8 × parent + lane there; kNone for the root
+  HugeVector<LightId> lights_;    ///< by leaf
+  /// Per leaf: the intensities of all before it in the largest cluster that it is in. In units of
+  /// which that has kWhole, and each of its lights one at least. Empty without clusters.
+  HugeVector<uint16_t> intensitiesBefore_;
+  HugeVector<uint32_t> slotOf_;  ///< per light id: 8 × node + lane, or kNone
   float strongest_ = 0;          ///< intensity of the root's strongest child
   Vec3 center_{0};               ///< of the root's bounding sphere
   float radius2_ = 0;            ///< its squared radius

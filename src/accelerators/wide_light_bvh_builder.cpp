@@ -2,6 +2,7 @@
 #include "accelerators/wide_light_bvh_builder.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/bounds.h"
 #include "core/parallel.h"
@@ -14,6 +15,10 @@ constexpr size_t kWidth = WideLightBVHNode::kWidth;
 constexpr float kLeastExtent = 1e-10f;
 /// Lights of a piece of the tree that one thread collapses.
 constexpr uint32_t kPieceLights = 16384;
+/// The most lights of a cluster: few enough to look alike from most places, enough to save levels.
+constexpr uint32_t kClusterLights = 512;
+/// The fewest units of intensity for each light of a cluster that is drawn from by them.
+constexpr uint32_t kUnitsPerLight = 32;
 
 /// What all children of a subtree of this many lights should hold: the largest power of the width
 /// that leaves more than one child.
@@ -39,8 +44,10 @@ void WideLightBVHBuilder::build() {
   out_.radius2_ = dot(binary_[0].halfExtent(), binary_[0].halfExtent());
 
   const Subtree all{0, static_cast<uint32_t>(binary_.size())};
+  hasClusters_ = all.lights() > kClusterLights;
   Piece top;
   top.nodes.emplace_back();
+  top.parents.push_back(WideLightBVH::kNone);
   top.pending.push_back({all, 0, 1});
   std::vector<Task> roots;
   collapse(top, all.lights() > kPieceLights ? kPieceLights : 0, roots);
@@ -48,11 +55,15 @@ void WideLightBVHBuilder::build() {
   parallelFor(roots.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       std::vector<Task> none;
-      pieces[i].nodes.push_back(top.nodes[roots[i].node]);
+      pieces[i].nodes.emplace_back();
+      pieces[i].parents.push_back(top.parents[roots[i].node]);
       pieces[i].pending.push_back({roots[i].subtree, 0, roots[i].depth});
       collapse(pieces[i], 0, none);
+      addIntensities(pieces[i]);
     }
   });
+
+  if (hasClusters_) addIntensities(top);
 
   std::vector<Place> places;
   Place next{0, static_cast<uint32_t>(top.nodes.size()), static_cast<uint32_t>(top.lights.size())};
@@ -65,11 +76,24 @@ void WideLightBVHBuilder::build() {
     out_.stats_.depth = std::max(out_.stats_.depth, pieces[i].depth);
   }
   out_.nodes_.resize(next.firstNode);
+  out_.parents_.resize(next.firstNode);
   out_.lights_.resize(next.firstLight);
+  if (hasClusters_) {
+    out_.intensitiesBefore_.resize(next.firstLight + 1);
+    out_.intensitiesBefore_.back() = 0;
+  }
   place(top, {0, 1, 0});
   parallelFor(pieces.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) place(pieces[i], places[i]);
   });
+}
+
+bool WideLightBVHBuilder::isCluster(const Subtree& subtree) const {
+  if (!hasClusters_ || subtree.lights() > kClusterLights) return false;
+  // Emitters that together face all ways look different from anywhere.
+  const auto first = binary_.begin() + subtree.first, end = binary_.begin() + subtree.end;
+  return !first->allNormals() ||
+         std::all_of(first, end, [](const LinearLightBVHNode& n) { return n.allNormals(); });
 }
 
 void WideLightBVHBuilder::open(Children& children, size_t& count, size_t which) const {
@@ -127,7 +151,9 @@ void WideLightBVHBuilder::fill(const Task& task, Piece& piece) const {
   WideLightBVHNode encoded;
   const float strongest = encoded.encode({nodes.data(), count}, leastExtent_);
   if (task.subtree.first == 0) out_.strongest_ = strongest;
-  encoded.parent = piece.nodes[task.node].parent;
+  const bool inCluster = task.inCluster || isCluster(task.subtree);
+  if (inCluster) encoded.clusterLights = task.subtree.lights();
+  if (inCluster && !task.inCluster) piece.clusters.push_back(task.node);
   encoded.firstLight = static_cast<uint32_t>(piece.lights.size());
   encoded.firstChild = static_cast<uint32_t>(piece.nodes.size());
   piece.nodes[task.node] = encoded;
@@ -135,12 +161,35 @@ void WideLightBVHBuilder::fill(const Task& task, Piece& piece) const {
   for (size_t i = 0; i < count; ++i) {
     if (nodes[i]->isLeaf()) {
       piece.lights.push_back(nodes[i]->light());
+      piece.intensities.push_back(nodes[i]->intensity());
     } else {
       const auto child = static_cast<uint32_t>(piece.nodes.size());
-      piece.pending.push_back({children[i], child, task.depth + 1});
-      piece.nodes.emplace_back().parent =
-          task.node * static_cast<uint32_t>(kWidth) + static_cast<uint32_t>(i);
+      piece.pending.push_back({children[i], child, task.depth + 1, inCluster});
+      piece.nodes.emplace_back();
+      piece.parents.push_back(task.node * static_cast<uint32_t>(kWidth) + static_cast<uint32_t>(i));
     }
+  }
+}
+
+void WideLightBVHBuilder::addIntensities(Piece& piece) {
+  piece.intensitiesBefore.resize(piece.lights.size() + 1);
+  for (const uint32_t cluster : piece.clusters) {
+    const WideLightBVHNode& node = piece.nodes[cluster];
+    const float* const intensity = piece.intensities.data() + node.firstLight;
+    const double total = std::accumulate(intensity, intensity + node.clusterLights, 0.);
+    const double shared = WideLightBVH::kWhole - node.clusterLights;
+    double before = 0;
+    for (uint32_t k = 0; k < node.clusterLights; ++k) {
+      piece.intensitiesBefore[node.firstLight + k] =
+          static_cast<uint16_t>(k + shared * (before / total));
+      before += static_cast<double>(intensity[k]);
+    }
+  }
+  for (WideLightBVHNode& node : piece.nodes) {
+    const uint32_t next = piece.intensitiesBefore[node.firstLight + node.clusterLights];
+    const uint32_t units =
+        (next > 0 ? next : WideLightBVH::kWhole) - piece.intensitiesBefore[node.firstLight];
+    if (units < kUnitsPerLight * node.clusterLights) node.clusterLights = 0;
   }
 }
 
@@ -150,10 +199,15 @@ void WideLightBVHBuilder::place(const Piece& piece, const Place& at) const {
     return node == 0 ? at.root : at.firstNode + node - 1;
   };
   std::copy(piece.lights.begin(), piece.lights.end(), out_.lights_.begin() + at.firstLight);
+  if (hasClusters_)
+    std::copy(piece.intensitiesBefore.begin(), piece.intensitiesBefore.end() - 1,
+              out_.intensitiesBefore_.begin() + at.firstLight);
   for (uint32_t i = 0; i < piece.nodes.size(); ++i) {
     WideLightBVHNode& node = out_.nodes_[numberOf(i)];
     node = piece.nodes[i];
-    if (i > 0) node.parent = numberOf(node.parent / kLanes) * kLanes + node.parent % kLanes;
+    const uint32_t parent = piece.parents[i];
+    out_.parents_[numberOf(i)] =
+        i > 0 ? numberOf(parent / kLanes) * kLanes + parent % kLanes : parent;
     node.firstChild = numberOf(node.firstChild);
     node.firstLight += at.firstLight;
     for (uint32_t lane = 0; lane < kLanes; ++lane)

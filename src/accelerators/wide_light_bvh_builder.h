@@ -26,11 +26,16 @@ class WideLightBVHBuilder {
   struct Task {
     Subtree subtree;
     uint32_t node, depth;
+    bool inCluster = false;
   };
   /// A part of the wide tree. Its numbers are its own until place().
   struct Piece {
     std::vector<WideLightBVHNode> nodes;  ///< the root first
+    std::vector<uint32_t> parents;        ///< per node; the root's is that of the top
     std::vector<LightId> lights;
+    std::vector<float> intensities;           ///< per light
+    std::vector<uint16_t> intensitiesBefore;  ///< per light; none if the tree has no clusters
+    std::vector<uint32_t> clusters;           ///< the largest ones: numbers of nodes
     std::vector<Task> pending;
     uint32_t depth = 0;  ///< levels above and within
   };
@@ -40,15 +45,19 @@ class WideLightBVHBuilder {
   };
 
   size_t chooseChildren(const Subtree& root, Children& children) const;
+  bool isCluster(const Subtree& subtree) const;
   void open(Children& children, size_t& count, size_t which) const;
   /// Fills in the pending nodes, and puts those of at most `leave` lights aside.
   void collapse(Piece& piece, uint32_t leave, std::vector<Task>& aside) const;
   void fill(const Task& task, Piece& piece) const;
+  /// The units of the clusters' lights; clusters of which that says too little are none.
+  static void addIntensities(Piece& piece);
   void place(const Piece& piece, const Place& at) const;
 
   const HugeVector<LinearLightBVHNode>& binary_;
   WideLightBVH& out_;
   float leastExtent_;
+  bool hasClusters_ = false;
 };
 
 }  // namespace lampyris

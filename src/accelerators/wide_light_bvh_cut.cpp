@@ -214,6 +214,10 @@ float WideLightBVH::expectedCount(const LightReceiver& at, LightId light,
       count = 0;
     } else if (budget <= 1) {
       count *= weight / weights.total();
+      if (const WideLightBVHNode* const cluster = alikeCluster(node, weights, lane)) {
+        count *= shareOfIntensity(*cluster, way.place(*this));
+        return false;
+      }
     } else {
       const Shares shares(weights, budget,
                           node.inner & nearChildren(node, at.position(), splitting.ratio()));

@@ -95,18 +95,27 @@ struct MeanCosine {
 };
 Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
 
+/// Lights of a cluster are alike but for their intensity where its radius is at most this part of
+/// the distance, and the sine of how far angles differ at most this part of their cosine.
+constexpr float kAlikeDistance = 0.2f, kAlikeCosine = 0.5f;
+
+/// Sets `alike` to 0 where a child's lights differ in it.
 [[gnu::always_inline]] inline Float8 receiverFactor(const LightReceiver& at, const Geometry& g,
-                                                    const Float8& invLength, const Uncertainty& b) {
+                                                    const Float8& invLength, const Uncertainty& b,
+                                                    Float8& alike) {
   Float8 cosine =
       stdx::clamp(dot(at.shadingNormal(), g.toCenter) * invLength, Float8(-1), Float8(1));
+  where(b.sine > kAlikeCosine * (at.bothSides() ? abs(cosine) : cosine), alike) = 0;
   if (at.tilt() > 0) where(cosine < 0, cosine) = stdx::min(-cosine, Float8(at.tilt()));
   const MeanCosine mean(cosine, capMeans(b.cosine));
   return stdx::max(at.bothSides() ? mean.absolute : mean.clamped, Float8(LightReceiver::kFloor));
 }
 
-/// 0 where nothing is emitted towards the receiver.
+/// 0 where nothing is emitted towards the receiver. Sets `alike` to 0 where a child's lights differ
+/// in it.
 [[gnu::always_inline]] inline Float8 emissionFactor(const WideLightBVHNode& node, const Geometry& g,
-                                                    const Float8& invLength, const Uncertainty& b) {
+                                                    const Float8& invLength, const Uncertainty& b,
+                                                    Float8& alike) {
   const Vec3x8 axis{load(node.axis[0]), load(node.axis[1]), load(node.axis[2])};
   // Lanes without an axis divide by zero; they are overwritten below.
   Float8 cosine = dot(axis, g.toCenter) * invLength / -sqrt(dot(axis, axis));
@@ -128,7 +137,13 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
   const Float8 cosX = cosine * cosO + sine * sinO, sineX = sine * cosO - cosine * sinO;
   const auto beyond = cosine < cosO && cosX < b.cosine && b.cosine > 0;
   where(beyond && cosX * b.cosine + sineX * b.sine < cosE - 1e-4f, factor) = 0;
-  where(lanesOf(node.allNormals), factor) = 1;
+  const auto allNormals = lanesOf(node.allNormals);
+  where(allNormals, factor) = 1;
+  // Of θo + θb; with θ more than θe, some of the lights send nothing.
+  const Float8 sineS = sinO * b.cosine + cosO * b.sine, cosS = cosO * b.cosine - sinO * b.sine;
+  const auto differ =
+      cosO < 0 || sineS > kAlikeCosine * cosine || cosine * cosS - sine * sineS < cosE;
+  where(!allNormals && differ, alike) = 0;
   return factor;
 }
 
@@ -142,16 +157,20 @@ Float8 capMeans(const Float8& cosine) { return 0.5f + 0.5f * cosine; }
   const Float8 invLength2 = 1 / stdx::max(g.d2, stdx::max(g.r2, Float8(kLeastD2)));
   const Float8 invLength = sqrt(invLength2);
   const Uncertainty uncertainty(g, invLength2);
-  Float8 factor = 1;
-  if (at.hasSurface()) factor = receiverFactor(at, g, invLength, uncertainty);
-  if (node.allNormals != 0xff) factor *= emissionFactor(node, g, invLength, uncertainty);
+  Float8 factor = 1, alike = 1;
+  where(uncertainty.sine > kAlikeDistance, alike) = 0;
+  if (at.hasSurface()) factor = receiverFactor(at, g, invLength, uncertainty, alike);
+  if (node.allNormals != 0xff) factor *= emissionFactor(node, g, invLength, uncertainty, alike);
   if (!at.bothSides()) {
     // The box's corner furthest in front; some ulps for the rounding of the terms.
     const Vec3 n = absComponents(at.side());
     const Float8 size = n.x * abs(g.toCenter.x) + n.y * abs(g.toCenter.y) + n.z * abs(g.toCenter.z);
-    where(dot(at.side(), g.toCenter) + dot(n, g.half) < -1e-6f * size, factor) = 0;
+    const Float8 height = dot(at.side(), g.toCenter), reach = dot(n, g.half);
+    where(height + reach < -1e-6f * size, factor) = 0;
+    where(height < reach, alike) = 0;
   }
   ChildWeights out;
+  alike.copy_to(out.alike.data(), stdx::vector_aligned);
   out.unit2 = std::max(1.f, glm::dot(g.receiver, g.receiver));
   // Intensities are the upper halves of floats: moved there, they are floats.
   const Bits8 halves(node.intensity.data(), stdx::element_aligned);

@@ -13,6 +13,8 @@ struct ChildWeights {
   alignas(32) std::array<float, WideLightBVHNode::kWidth> of;
   /// Sums up to and with each.
   std::array<double, WideLightBVHNode::kWidth> upTo;
+  /// Positive for children whose lights differ in nothing but intensity, as seen from the point.
+  alignas(32) std::array<float, WideLightBVHNode::kWidth> alike;
   /// The squared length that they are relative to, in the node's units.
   float unit2;
 

@@ -19,7 +19,6 @@ namespace lampyris {
 
 struct alignas(32) WideLightBVHNode {
   static constexpr size_t kWidth = 8;
-  static constexpr uint32_t kNoParent = ~uint32_t{0};
   template <class T>
   using Lanes = std::array<T, kWidth>;
 
@@ -43,7 +42,9 @@ struct alignas(32) WideLightBVHNode {
   Vec3 origin{0};
   float invExtent = 1;
   uint32_t firstChild = 0, firstLight = 0;
-  uint32_t parent = kNoParent;  ///< 8 × number of the parent + lane there
+  /// Of a cluster that may be drawn from by intensity alone: the number of its lights, from
+  /// firstLight on. 0 for any other node.
+  uint32_t clusterLights = 0;
   uint8_t leaves = 0, inner = 0;
   uint8_t allNormals = 0xff;  ///< children whose normals may have any direction, and no children
   uint8_t twoSided = 0;

@@ -10,16 +10,17 @@ class WideLightBVH::Way {
  public:
   Way(const WideLightBVH& tree, LightId light) {
     if (light >= tree.slotOf_.size()) return;
-    for (uint32_t slot = tree.slotOf_[light]; slot != WideLightBVHNode::kNoParent;) {
-      const WideLightBVHNode& node = tree.nodes_[slot / WideLightBVHNode::kWidth];
-      // The links lie at the end of a node; follow() wants the rest of it.
-      __builtin_prefetch(&node);
-      __builtin_prefetch(&node.half);
+    for (uint32_t slot = tree.slotOf_[light]; slot != kNone;) {
       slots_[length_++] = slot;
-      slot = node.parent;
+      slot = tree.parents_[slot / WideLightBVHNode::kWidth];
     }
   }
   bool empty() const { return length_ == 0; }
+  /// The light's place in the tree's list of lights.
+  uint32_t place(const WideLightBVH& tree) const {
+    return tree.nodes_[slots_[0] / WideLightBVHNode::kWidth].light(slots_[0] %
+                                                                   WideLightBVHNode::kWidth);
+  }
   /// Calls step(node, lane) from the root on until it returns false.
   template <class Step>
   void follow(const WideLightBVH& tree, const Step& step) const {
