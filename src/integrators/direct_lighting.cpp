@@ -47,9 +47,10 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
                                  RayCounts& rays) const {
   if (strategy_ == LightStrategy::One) {
     const float choice = stream.next1D();
-    const Vec2 u = stream.next2D();
-    if (splits_) return cutSamples(at, time, choice, u, rays);
+    if (splits_) return cutSamples(at, time, choice, stream.next2D(), rays);
     const auto chosen = distribution_->sample(at, choice);
+    if (chosen) prefetchLight(scene_, *chosen);
+    const Vec2 u = stream.next2D();  // while the light is fetched
     if (!chosen || !(chosen->pmf > 0)) return Rgb();
     return lightSample(at, time, *chosen, u, rays);
   }
@@ -112,8 +113,9 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
 std::optional<DrawnLight> DirectLighting::drawLight(const LightSampleContext& at,
                                                     SampleStream& stream) const {
   const float choice = stream.next1D();
-  const Vec2 u = stream.next2D();
   const auto chosen = distribution_->sample(at, choice);
+  if (chosen) prefetchLight(scene_, *chosen);
+  const Vec2 u = stream.next2D();  // while the light is fetched
   if (!chosen || !(chosen->pmf > 0)) return std::nullopt;
   const auto s = lightArriving(scene_, chosen->light, at.p, u);
   if (!s) return std::nullopt;

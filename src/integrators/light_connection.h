@@ -32,9 +32,12 @@ inline Vec2 nextInCut(Vec2 u) {
   return u - glm::floor(u);
 }
 
+inline void prefetchLight(const Scene& scene, const SampledLight& drawn) {
+  __builtin_prefetch(scene.lightTable[drawn.light].light);
+}
 /// Fetches the lights of a cut side by side; they are used one after the other.
 inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
-  for (const SampledLight& l : cut) __builtin_prefetch(scene.lightTable[l.light].light);
+  for (const SampledLight& l : cut) prefetchLight(scene, l);
 }
 
 /// A sample of the light as seen from a point, with a density that can be divided by. None where
