@@ -68,8 +68,8 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
 void bounds(const RTCBoundsFunctionArguments* args) {
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
   buildBegun.take();
-  const UserShapes::Element e = shapes.elements[args->primID];
-  const Bounds3 b = shapes.primitives[e.primitive].shape->bounds(e.element);
+  const UserShapes::Element e = shapes[args->primID];
+  const Bounds3 b = shapes.primitive(e).shape->bounds(e.element);
   // Embree's box test is in single precision, the shapes' intersections are not.
   const Vec3 pad = 4 * kMachineEpsilon * glm::max(absComponents(b.min), absComponents(b.max));
   RTCBounds& out = *args->bounds_o;
@@ -83,8 +83,9 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
-  const UserShapes::Element e = shapes.elements[args->primID];
-  const auto hit = firstHit(shapes.primitives[e.primitive], e.element, query.ray, Query::Nearest);
+  if (shapes.passesBy(query.ray, args->primID)) return;
+  const UserShapes::Element e = shapes[args->primID];
+  const auto hit = firstHit(shapes.primitive(e), e.element, query.ray, Query::Nearest);
   if (!hit) return;
   query.ray.tfar = hit->t;
   query.hit.u = hit->uv.x;
@@ -98,9 +99,9 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
-  const UserShapes::Element e = shapes.elements[args->primID];
-  if (firstHit(shapes.primitives[e.primitive], e.element, ray, Query::Occlusion))
-    ray.tfar = -kInfinity;
+  if (shapes.passesBy(ray, args->primID)) return;
+  const UserShapes::Element e = shapes[args->primID];
+  if (firstHit(shapes.primitive(e), e.element, ray, Query::Occlusion)) ray.tfar = -kInfinity;
 }
 
 void filterNearest(const RTCFilterFunctionNArguments* args) { filter(args, Query::Nearest); }

@@ -5,23 +5,10 @@
 
 #include <embree3/rtcore.h>
 
-#include <vector>
-
-#include "base/geometry.h"
+#include "accelerators/embree_user_shapes.h"
 #include "core/hand_over.h"
 
 namespace lampyris::embree {
-
-/// The elements of all shapes of a scene that Embree doesn't know, as one geometry: a ray that
-/// comes by touches less memory than with one for each shape. Hits name the primitive in place of
-/// the geometry.
-struct UserShapes {
-  struct Element {
-    uint32_t primitive, element;
-  };
-  const std::vector<Primitive>& primitives;
-  std::vector<Element> elements{};
-};
 
 /// To and from the threads on which Embree asks for bounds while it builds.
 inline const HandOver buildBegun, buildDone;

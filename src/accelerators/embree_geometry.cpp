@@ -127,7 +127,7 @@ GeometryHandle meshGeometry(const Primitive& primitive, const TriangleBuffers& t
 GeometryHandle userGeometry(const embree::UserShapes& shapes) {
   GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserData(geometry.get(), const_cast<embree::UserShapes*>(&shapes));
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(shapes.elements.size()));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(shapes.size()));
   rtcSetGeometryBoundsFunction(geometry.get(), embree::bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), embree::intersect);
   rtcSetGeometryOccludedFunction(geometry.get(), embree::occluded);
@@ -138,20 +138,14 @@ GeometryHandle userGeometry(const embree::UserShapes& shapes) {
 SceneHandle buildScene(const std::vector<Primitive>& primitives, size_t userId,
                        std::deque<embree::UserShapes>& userShapes) {
   SceneHandle scene = newScene();
-  embree::UserShapes others{primitives};
   for (uint32_t i = 0; i < primitives.size(); ++i) {
-    const Shape& shape = *primitives[i].shape;
-    const TriangleBuffers triangles = shape.triangles();
-    if (triangles.triangleCount > 0) {
+    const TriangleBuffers triangles = primitives[i].shape->triangles();
+    if (triangles.triangleCount > 0)
       attach(scene.get(), meshGeometry(primitives[i], triangles).get(), i);
-      continue;
-    }
-    for (uint32_t element = 0; element < shape.elementCount(); ++element)
-      if (!shape.bounds(element).empty()) others.elements.push_back({i, element});
   }
-  if (others.elements.empty()) return scene;
-  userShapes.push_back(std::move(others));
-  attach(scene.get(), userGeometry(userShapes.back()).get(), static_cast<unsigned>(userId));
+  const embree::UserShapes& others = userShapes.emplace_back(primitives);
+  if (others.empty()) return scene;
+  attach(scene.get(), userGeometry(others).get(), static_cast<unsigned>(userId));
   return scene;
 }
 

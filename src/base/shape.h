@@ -35,6 +35,12 @@ struct ShapeSample {
   float pdf = 0;    ///< by area, or by solid angle: see the function that returned it
 };
 
+/// Everything within `radius` of `center`.
+struct Ball {
+  Vec3 center{0};
+  float radius = kInfinity;
+};
+
 /// All positions are in world space (for a shape of an object instance: in the space in which
 /// ObjectBegin stood). Immutable and thread-safe.
 class Shape {
@@ -45,6 +51,9 @@ class Shape {
   /// Not empty for a triangle mesh: Embree intersects it itself.
   virtual TriangleBuffers triangles() const { return {}; }
   virtual Bounds3 bounds(uint32_t element) const = 0;
+  /// A ball that contains the element, if one is much tighter than the box; else infinite. Lets
+  /// rays pass by without a look at the shape.
+  virtual Ball ball(uint32_t element) const { return (void)element, Ball{}; }
   /// The nearest hit with 0 < t < ray.tMax; not called for triangle meshes.
   virtual std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const = 0;
   /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray`.

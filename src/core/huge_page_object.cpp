@@ -14,11 +14,12 @@ namespace lampyris {
 namespace {
 
 constexpr size_t kPageBytes = size_t{2} << 20;
+constexpr size_t kCacheLine = 64;
 constexpr size_t kMostBytes = size_t{64} << 10;
 
 /// Lies at the start of its page, which is aligned to its own size. Takes a whole cache line, so
 /// that objects of half a line straddle none.
-struct alignas(64) Page {
+struct alignas(kCacheLine) Page {
   std::atomic<uint32_t> users{1};  ///< its objects, and the thread that fills it
 
   static Page* make() {
@@ -44,6 +45,9 @@ class Filler {
   void* take(size_t bytes) {
     assert(bytes <= kMostBytes);
     const size_t size = (bytes + alignof(std::max_align_t) - 1) & ~(alignof(std::max_align_t) - 1);
+    // No more cache lines than it must.
+    if (used_ % kCacheLine + size > kCacheLine)
+      used_ = (used_ + kCacheLine - 1) & ~(kCacheLine - 1);
     if (used_ + size > kPageBytes) {
       Page* const next = Page::make();
       if (page_) page_->leave();

@@ -41,14 +41,14 @@ Quadric::Quadric(const ShapeContext& context, const char* name) {
         context.location,
         fmt::format("{}: its transformation cannot be inverted; look for a Scale by 0", name));
   // Products of rotations in single precision stray this far from being orthogonal.
-  constexpr double kTolerance = 1e-5;
+  constexpr double kTolerance = 1e-5, kExact = 1e-12;
   const glm::dmat3 gram = glm::transpose(matrix_) * matrix_;
   const double s2 = (gram[0][0] + gram[1][1] + gram[2][2]) / 3;
-  bool similar = true;
+  double off = 0;
   for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r)
-      similar = similar && std::abs(gram[c][r] - (c == r ? s2 : 0)) <= kTolerance * s2;
-  similarity_ = similar ? std::sqrt(s2) : 0;
+    for (int r = 0; r < 3; ++r) off = std::max(off, std::abs(gram[c][r] - (c == r ? s2 : 0)));
+  similarity_ = off <= kTolerance * s2 ? std::sqrt(s2) : 0;
+  exact_ = off <= kExact * s2;
   orientation_ = context.reverseOrientation ? -1.f : 1.f;
 }
 

@@ -65,6 +65,14 @@ class Quadric : public Shape {
   double similarity() const { return similarity_; }
   float orientation() const { return orientation_; }
   const glm::dmat3& matrix() const { return matrix_; }
+  /// Under a similarity: M Mᵀ n / s², which is n but for what rounding of the map is off by.
+  DVec3 corrected(const DVec3& n) const {
+    return exact_ ? n : matrix_ * (n * matrix_) / sqr(similarity_);
+  }
+  /// In world space, of a shape that is a whole ball; else 0.
+  double ballRadius() const { return ballRadius_; }
+  void setBallRadius(double radius) { ballRadius_ = radius; }
+  const DVec3& worldOrigin() const { return translation_; }
   /// Unit; turned over by ReverseOrientation.
   Vec3 worldNormal(const DVec3& objectNormal) const;
 
@@ -79,11 +87,15 @@ class Quadric : public Shape {
   void setBounds(const Extent& extent);
   double areaScale(const DVec3& objectNormal) const;
 
-  glm::dmat3 matrix_{1}, toObject_{1};
-  DVec3 translation_{0};
-  double determinant_ = 1, similarity_ = 0, objectArea_ = 0;
+  // What sampling reads of one of many small spheres comes first: a cache line.
   float area_ = 0, orientation_ = 1;
-  Vec3 mapError_{0};  ///< of toWorld() in double precision, anywhere on the shape
+  Vec3 mapError_{0};   ///< of toWorld() in double precision, anywhere on the shape
+  bool exact_ = true;  ///< corrected() changes nothing that a float could tell
+  DVec3 translation_{0};
+  double ballRadius_ = 0;
+
+  glm::dmat3 matrix_{1}, toObject_{1};
+  double determinant_ = 1, similarity_ = 0, objectArea_ = 0;
   Bounds3 bounds_;
 };
 

@@ -36,6 +36,7 @@ class Sphere final : public Quadric, public HugePageObject {
  public:
   Sphere(const SphereParameters& p, const ShapeContext& context);
 
+  Ball ball(uint32_t element) const override;
   std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const override;
   std::optional<ShapeSample> sampleSolidAngle(uint32_t element, const Vec3& from,
                                               const Vec2& u) const override;
@@ -67,10 +68,6 @@ class Sphere final : public Quadric, public HugePageObject {
 
   double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
   bool full_;
-  DVec3 worldCentre_;
-  double worldRadius_;  ///< if the map keeps it a sphere: the rest as well
-  double reach_;        ///< no point of it is farther from the origin
-  glm::dmat3 onto_{1};  ///< by what the map is off from a similarity, M Mᵀ / s²
 };
 
 Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
@@ -80,11 +77,8 @@ Sphere::Sphere(const SphereParameters& p, const ShapeContext& context)
   zMax_ = std::clamp(std::max(z0, z1), -radius_, radius_);
   thetaMin_ = radius_ > 0 ? std::acos(std::clamp(zMin_ / radius_, -1., 1.)) : 0;
   thetaMax_ = radius_ > 0 ? std::acos(std::clamp(zMax_ / radius_, -1., 1.)) : 0;
-  worldCentre_ = toWorld(DVec3(0));
-  worldRadius_ = radius_ * similarity();
-  reach_ = glm::length(worldCentre_) + 2 * worldRadius_;
-  if (similarity() > 0) onto_ = matrix() * glm::transpose(matrix()) / sqr(similarity());
   full_ = zMin_ == -radius_ && zMax_ == radius_ && p.phiMax >= 360;
+  if (full_) setBallRadius(radius_ * similarity());
 
   Extent extent;
   extent.area = phiMax_ * radius_ * (zMax_ - zMin_);
@@ -115,6 +109,15 @@ Quadric::Point Sphere::evaluate(DVec2 uv) const {
   at.dpduv = range * phiMax_ * radius_ * c * turned;
   at.dpdvv = -range * range * radius_ * DVec3(s * around, c);
   return at;
+}
+
+Ball Sphere::ball(uint32_t element) const {
+  (void)element;
+  if (!(similarity() > 0)) return {};
+  // What a similarity may be off by, and the rounding of the centre.
+  const double slack = 1e-4 * radius_ * similarity() +
+                       static_cast<double>(kMachineEpsilon) * glm::length(worldOrigin());
+  return {Vec3(worldOrigin()), nextFloatUp(static_cast<float>(radius_ * similarity() + slack))};
 }
 
 /// The parameters of a point on the whole sphere if the cuts leave it.
@@ -148,9 +151,9 @@ std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) cons
 
 std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
   std::optional<Cone> cone;
-  if (!full_ || similarity() == 0) return cone;
-  const double r = worldRadius_;
-  const DVec3 toCentre = worldCentre_ - DVec3(from);
+  const double r = ballRadius();
+  if (!(r > 0)) return cone;
+  const DVec3 toCentre = worldOrigin() - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
   if (!(d2 > r * r) || !std::isfinite(d2)) return cone;
   const double d = std::sqrt(d2), inverse = 1 / d;
@@ -191,8 +194,8 @@ std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) c
   const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * cone.axis;
   ShapeSample& s = out.emplace();
   // The map may be off from a similarity by its rounding: M Mᵀn / |Mᵀn| is on the surface exactly.
-  const DVec3 mapped = onto_ * n;
-  s.p = Vec3(worldCentre_ + worldRadius_ / std::sqrt(glm::dot(n, mapped)) * mapped);
+  const DVec3 mapped = corrected(n);
+  s.p = Vec3(worldOrigin() + ballRadius() / std::sqrt(glm::dot(n, mapped)) * mapped);
   s.pError = worldError(s.p);
   s.n = orientation() * Vec3(n);
   s.pdf = pdf;
@@ -204,8 +207,9 @@ float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
   const auto cone = coneFrom(from);
   if (!cone) return Shape::pdfSolidAngle(element, from, p, n);
   // The far side is never drawn. On the silhouette rounding of p decides nothing.
-  const DVec3 fromCentre = DVec3(p) - worldCentre_, back = DVec3(from) - DVec3(p);
-  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) * reach_ * cone->distance;
+  const DVec3 fromCentre = DVec3(p) - worldOrigin(), back = DVec3(from) - DVec3(p);
+  const double reach = glm::length(worldOrigin()) + 2 * ballRadius();  // of its points at most
+  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) * reach * cone->distance;
   if (glm::dot(fromCentre, back) < -tolerance) return 0;
   const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
   return std::isfinite(pdf) && area(element) > 0 ? pdf : 0;

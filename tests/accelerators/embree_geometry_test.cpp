@@ -109,6 +109,56 @@ TEST(EmbreeGeometry, AgreesWithBruteForce) {
   EXPECT_LT(distance(want.min, got.min) + distance(want.max, got.max), 1e-4f);
 }
 
+/// Spheres of all sizes, whole and cut, some turned and stretched, near the origin and far away.
+struct Spheres {
+  std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<Primitive> primitives;
+  Spheres(float scale, const Vec3& origin) {
+    for (uint64_t i = 0; i < 60; ++i) {
+      const float radius = std::pow(10.f, -4 * uniform(7, i, 0)) * 0.3f;
+      const Vec3 center(uniform(7, i, 1), uniform(7, i, 2), uniform(7, i, 3));
+      Transform map = Transform::translate(origin) * Transform::scale(Vec3(scale)) *
+                      Transform::translate(center) * Transform::rotate(40, {1, 2, 3});
+      if (i % 5 == 0) map = map * Transform::scale({1, 0.5f, 2});
+      Parameters p = Parameters().floats("radius", {radius});
+      if (i % 3 == 0) p.floats("zmax", {0.5f * radius});
+      shapes.push_back(makeShape("sphere", p, map));
+    }
+    for (const auto& s : shapes) primitives.push_back(of(s));
+  }
+};
+
+TEST(EmbreeGeometry, PassesNoSphereByThatARayMeets) {
+  for (const float scale : {1.f, 1e-6f, 1e6f}) {
+    for (const float away : {0.f, 1e3f}) {
+      const Spheres spheres(scale, Vec3(scale * away));
+      const auto geometry = makeEmbreeGeometry({spheres.primitives, {}, {}});
+      int hits = 0;
+      for (uint64_t i = 0; i < 6000; ++i) {
+        // At the rim of a sphere, just in or out.
+        const Bounds3 box = spheres.shapes[i % 60]->bounds(0);
+        const Vec3 w = randomDirection(11, i, 0), side = randomDirection(11, i, 3);
+        const Vec3 rim = normalize(side - dot(side, w) * w) * (0.5f * (box.max - box.min).x);
+        const float length = scale * (0.1f + uniform(11, i, 6));
+        const Vec3 target = box.centroid() + rim * (0.99f + 0.011f * uniform(11, i, 7));
+        Ray ray{target - length * w, length * w};
+        if (i % 4 == 0) ray.tMax = 1;
+        float nearest = kInfinity;
+        for (const auto& s : spheres.shapes)
+          if (const auto hit = s->intersect(0, ray)) nearest = std::min(nearest, hit->t);
+        const auto hit = geometry->intersect(ray);
+        ASSERT_EQ(hit.has_value(), std::isfinite(nearest)) << scale << " " << away << " " << i;
+        ASSERT_EQ(geometry->occluded(ray), hit.has_value());
+        if (hit) {
+          ASSERT_EQ(hit->shape.t, nearest);
+        }
+        hits += hit.has_value();
+      }
+      EXPECT_GT(hits, 2000);
+    }
+  }
+}
+
 TEST(EmbreeGeometry, EmptyAndTinyScenes) {
   const auto none = makeEmbreeGeometry({});
   EXPECT_FALSE(none->intersect({{0, 0, 0}, {0, 0, 1}}));
