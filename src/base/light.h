@@ -70,6 +70,8 @@ class Light {
   /// Called once with the scene's bounds before anything else (infinite and distant lights).
   virtual void prepare(const Bounds3& scene) { (void)scene; }
 
+  /// Fetches what sample() is going to read, beyond the light itself.
+  virtual void prefetch() const {}
   /// Draws incident light at `from`. None if nothing arrives.
   virtual std::optional<LightSample> sample(uint32_t element, const Vec3& from,
                                             const Vec2& u) const = 0;

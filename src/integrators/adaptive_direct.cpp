@@ -46,40 +46,11 @@ class TechniqueClock {
 
 }  // namespace
 
-void AdaptiveSettings::declare(Declaration& d) {
-  d.add(
-       "maxbrdfsamples", maxSamples,
-       "Adaptive direct lighting: the most samples by the BSDF and by lights in its lobes together "
-       "at a glossy point; it takes this times the largest integral of its lobes over a cluster "
-       "of lights.")
-      .range(1, kMostSamples);
-  d.add("brdfallocation", allocation,
-        "Adaptive direct lighting: how these samples are shared out. Adaptive: by how often BSDF "
-        "samples find light; equal: half of either; lights, bsdf: all of one kind.")
-      .oneOf({"adaptive", "equal", "lights", "bsdf"});
-}
-
-BrdfAllocation AdaptiveSettings::how() const {
-  return allocation == "equal"    ? BrdfAllocation::Equal
-         : allocation == "lights" ? BrdfAllocation::Lights
-         : allocation == "bsdf"   ? BrdfAllocation::Bsdf
-                                  : BrdfAllocation::Adaptive;
-}
-
-std::unique_ptr<LightDistribution> makeAdaptiveLights(const IntegratorContext& context,
-                                                      const std::string& name) {
-  auto lights = context.lightDistribution(name.empty() ? "brdf" : name);
-  if (!dynamic_cast<const BrdfLightDistribution*>(lights.get()))
-    throw SceneError(context.location,
-                     "strategy \"adaptive\" needs \"string lightsampler\" "
-                     "\"brdf\", the only one that knows glossy lobes");
-  return lights;
-}
-
 /// A point at work.
 struct AdaptiveDirect::Point {
   const LightSampleContext& at;
   LightSampleContext tree;
+  SampledLights& ofTree;  ///< what the tree drew
   const float time;
   SampleStream& stream;
   RenderState& state;
@@ -94,6 +65,7 @@ struct AdaptiveDirect::Point {
 
   Point(const LightSampleContext& context, float rayTime, SampleStream& numbers, RenderState& s)
       : at(context),
+        ofTree(buffer()),
         time(rayTime),
         stream(numbers),
         state(s),
@@ -107,6 +79,10 @@ struct AdaptiveDirect::Point {
       brdf.emplace(lights, at, *receiver);
   }
 
+  static SampledLights& buffer() {
+    thread_local SampledLights lights;
+    return lights;
+  }
   float count() const { return static_cast<float>(samples); }
   /// N m_i, given the densities by solid angle of either technique.
   float mixture(int i, float byLights, float byBsdf) const {
@@ -191,6 +167,8 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
   allocation = {point.samples, point.cut, treeWorth(point)};
   point.tree = seenByTree(at, allocation.treeWorth);
   clock.lap(kBrdfOriented);
+  drawFromTree(point);
+  clock.lap(kTree);
 
   if (state.aov) state.aov->beginLightVertex();
   ++counts.points;
@@ -271,23 +249,26 @@ float AdaptiveDirect::treeDraws(const LightSampleContext& at, bool cut, LightId 
   return cut ? tree.expectedCount(at, light) : tree.pmf(at, light);
 }
 
-Rgb AdaptiveDirect::treeSamples(Point& point) const {
-  SampleStream& stream = point.stream;
-  stream.setDimension(point.firstDimension + 1);
-  const float choice = stream.next1D();
-  stream.setDimension(point.firstDimension + 3 + 4 * AdaptiveSettings::kMostSamples);
+/// Before anything else of the point, so that memory has the lights when their turn comes.
+void AdaptiveDirect::drawFromTree(Point& point) const {
+  point.stream.setDimension(point.firstDimension + 1);
+  const float choice = point.stream.next1D();
   const LightDistribution& tree = lights_.plain();
-  if (!point.cut) {
-    const auto drawn = tree.sample(point.tree, choice);
-    return drawn ? treeSample(point, *drawn, stream.next2D()) : Rgb();
-  }
-  thread_local SampledLights drawn;
-  drawn.clear();
-  tree.sampleCut(point.tree, choice, drawn);
-  prefetchLights(scene_, drawn);
+  point.ofTree.clear();
+  if (point.cut)
+    tree.sampleCut(point.tree, choice, point.ofTree);
+  else if (const auto drawn = tree.sample(point.tree, choice))
+    point.ofTree.push_back(*drawn);
+  prefetchLights(scene_, point.ofTree);
+}
+
+Rgb AdaptiveDirect::treeSamples(Point& point) const {
+  prefetchBeyondLights(scene_, point.ofTree);
+  SampleStream& stream = point.stream;
+  stream.setDimension(point.firstDimension + 3 + 4 * AdaptiveSettings::kMostSamples);
   Rgb sum;
   Vec2 u = stream.next2D();
-  for (const SampledLight& light : drawn) {
+  for (const SampledLight& light : point.ofTree) {
     sum += treeSample(point, light, u);
     u = nextInCut(u);
   }

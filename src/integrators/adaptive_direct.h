@@ -89,6 +89,7 @@ class AdaptiveDirect {
   float lightProbability(const Point& point, int i) const;
   Rgb brdfLightSample(Point& point, int i) const;
   Rgb bsdfSample(Point& point, int i) const;
+  void drawFromTree(Point& point) const;
   Rgb treeSamples(Point& point) const;
   Rgb treeSample(Point& point, const SampledLight& chosen, const Vec2& u) const;
   float treeDraws(const LightSampleContext& at, bool cut, LightId light) const;

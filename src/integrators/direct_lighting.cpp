@@ -69,6 +69,7 @@ const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float
   cut.clear();
   distribution_->sampleCut(at, choice, cut);
   prefetchLights(scene_, cut);
+  prefetchBeyondLights(scene_, cut);
   return cut;
 }
 

@@ -39,6 +39,10 @@ inline void prefetchLight(const Scene& scene, const SampledLight& drawn) {
 inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
   for (const SampledLight& l : cut) prefetchLight(scene, l);
 }
+/// And then what is read beyond them.
+inline void prefetchBeyondLights(const Scene& scene, const SampledLights& cut) {
+  for (const SampledLight& l : cut) scene.lightTable[l.light].light->prefetch();
+}
 
 /// A sample of the light as seen from a point, with a density that can be divided by. None where
 /// nothing arrives.
