@@ -21,14 +21,16 @@ enum class Aov : uint8_t {
   Variance,
   LightCut,
   BsdfShare,
+  BrdfSamples,
+  BsdfDraws,
   LightEntropy,
   PathLength,
   Time
 };
 /// As the command line and scene files spell them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 10> kAovNames = {
-    "albedo",   "normal",    "depth",        "samplecount", "variance",
-    "lightcut", "bsdfshare", "lightentropy", "pathlength",  "time"};
+inline constexpr std::array<std::string_view, 12> kAovNames = {
+    "albedo",    "normal",      "depth",     "samplecount",  "variance",   "lightcut",
+    "bsdfshare", "brdfsamples", "bsdfdraws", "lightentropy", "pathlength", "time"};
 
 class AovSet {
  public:
@@ -71,6 +73,12 @@ class AovRecord {
   void bsdfSampled(const Rgb& light) {
     if (atFirst()) bsdfPart += static_cast<double>(light.luminance());
   }
+  /// Adaptive direct lighting took so many BRDF-aware samples, of which so many were of the BSDF.
+  void brdfAware(int samples, int ofBsdf) {
+    if (!atFirst()) return;
+    brdfSamples = static_cast<uint32_t>(samples);
+    bsdfDraws = static_cast<uint32_t>(ofBsdf);
+  }
 
   bool hasLightVertex() const { return lightVertices_ > 0; }
 
@@ -82,6 +90,7 @@ class AovRecord {
   uint32_t draws = 0;      ///< lights drawn at the light vertex
   double information = 0;  ///< Σ −log₂ pmf over the draws, in bits
   double lightPart = 0, bsdfPart = 0;
+  uint32_t brdfSamples = 0, bsdfDraws = 0;
   uint64_t segments = 0;  ///< closest-hit rays of the path
   double seconds = 0;
 

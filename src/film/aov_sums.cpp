@@ -29,6 +29,8 @@ constexpr std::array<Layout, kAovNames.size()> kLayouts = {{
     {Aov::Variance, {"variance.R", "variance.G", "variance.B"}, 3},
     {Aov::LightCut, {"lightcut.Y"}, 1, true},
     {Aov::BsdfShare, {"bsdfshare.Y"}, 1, true},
+    {Aov::BrdfSamples, {"brdfsamples.Y"}, 1, true},
+    {Aov::BsdfDraws, {"bsdfdraws.Y"}, 1, true},
     {Aov::LightEntropy, {"lightentropy.Y"}, 1, true},
     {Aov::PathLength, {"pathlength.Y"}},
     {Aov::Time, {"time.Y"}},
@@ -59,6 +61,10 @@ Contribution contributionOf(Aov aov, const AovRecord& r) {
       return {{number(r.draws)}, r.hasLightVertex() ? 1. : 0.};
     case Aov::BsdfShare:
       return {{r.bsdfPart}, r.bsdfPart + r.lightPart};
+    case Aov::BrdfSamples:
+      return {{number(r.brdfSamples)}, r.hasLightVertex() ? 1. : 0.};
+    case Aov::BsdfDraws:
+      return {{number(r.bsdfDraws)}, number(r.brdfSamples)};
     case Aov::LightEntropy:
       return {{r.information}, number(r.draws)};
     case Aov::PathLength:

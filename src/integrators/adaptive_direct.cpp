@@ -174,12 +174,14 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
   ++counts.points;
   if (point.brdf) ++counts.glossyPoints, counts.cutClusters += point.brdf->cutSize();
   Parts sum;
+  int ofBsdf = 0;
   for (int i = 0; i < point.samples; ++i) {
     const bool continuation = purpose != Purpose::Ending && i + 1 == point.samples;
     float& p = point.lightProbabilities[static_cast<size_t>(i)];
     p = continuation ? 0 : lightProbability(point, i);
     point.drawsLights = point.drawsLights || p > 0;
     counts.bsdfSamples += continuation && point.brdf;
+    ofBsdf += continuation;
     if (continuation) break;
     const uint32_t first = point.firstDimension + 2 + 4 * static_cast<uint32_t>(i);
     stream.setDimension(first);
@@ -190,11 +192,13 @@ AdaptiveDirect::Parts AdaptiveDirect::estimate(const LightSampleContext& at, flo
       clock.lap(kBrdfOriented);
     } else {
       sum.bsdf += bsdfSample(point, i);
+      ++ofBsdf;
       clock.lap(kBsdf);
     }
   }
   sum.lights += treeSamples(point);
   clock.lap(kTree);
+  if (state.aov) state.aov->brdfAware(point.samples, ofBsdf);
   return sum;
 }
 

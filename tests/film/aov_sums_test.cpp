@@ -32,6 +32,7 @@ AovRecord hitRecord() {
   r.lightDraw(0);  // no draw
   r.lightSampled(Rgb(3));
   r.bsdfSampled(Rgb(1));
+  r.brdfAware(8, 6);
   r.segments = 3;
   r.seconds = 2e-6;
   // What comes from later vertices does not count.
@@ -39,6 +40,7 @@ AovRecord hitRecord() {
   r.lightDraw(0.001f);
   r.lightSampled(Rgb(100));
   r.bsdfSampled(Rgb(100));
+  r.brdfAware(100, 1);
   return r;
 }
 
@@ -52,7 +54,7 @@ TEST(AovSums, MeansByHand) {
   sums.addColour(0, {3, 2, 0});
   const std::vector<PixelSums> pixels{{{4}, {4}, {4}, 0, 2}, {}};
   auto layers = byName(sums.layers(pixels, 10));
-  EXPECT_EQ(layers.size(), 16u);
+  EXPECT_EQ(layers.size(), 18u);
   EXPECT_FLOAT_EQ(layers["albedo.G"][0], 0.1f);
   EXPECT_FLOAT_EQ(layers["N.Y"][0], 0.5f);
   EXPECT_FLOAT_EQ(layers["depth.Z"][0], 2);  // of the paths that hit something
@@ -63,6 +65,8 @@ TEST(AovSums, MeansByHand) {
   EXPECT_FLOAT_EQ(layers["variance.B"][0], 400);
   EXPECT_EQ(layers["lightcut.Y"][0], 2);
   EXPECT_FLOAT_EQ(layers["bsdfshare.Y"][0], 0.25f);
+  EXPECT_EQ(layers["brdfsamples.Y"][0], 8);
+  EXPECT_FLOAT_EQ(layers["bsdfdraws.Y"][0], 0.75f);
   EXPECT_FLOAT_EQ(layers["lightentropy.Y"][0], 1.5f);  // (2 + 1) / 2 bits
   EXPECT_EQ(layers["pathlength.Y"][0], 2);
   EXPECT_FLOAT_EQ(layers["time.Y"][0], 1);

@@ -133,6 +133,34 @@ TEST_F(Snapshots, AovsAreLayersOfTheImage) {
   EXPECT_EQ(readExrLayer(path("out-2spp.exr").string(), "samplecount").at(3, 3, 0), 2);
 }
 
+TEST_F(Snapshots, AovsOfAdaptiveDirectLightingAgreeWithTheStatistics) {
+  write("glossy.pbrt",
+        "LookAt 0 -3 1  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 20\n"
+        "Integrator \"directlighting\" \"string strategy\" \"adaptive\"\n"
+        "Film \"image\" \"integer xresolution\" 6 \"integer yresolution\" 6\nWorldBegin\n"
+        "Material \"metal\" \"float roughness\" 0.2\n"
+        "Shape \"disk\" \"float radius\" 9\n"
+        "AreaLightSource \"diffuse\"\nTranslate 0 2 1\nShape \"sphere\" \"float radius\" 0.5\n");
+  const CommandResult r =
+      run("--spp 16 --aov brdfsamples,bsdfdraws --stats s.json -o out.exr glossy.pbrt");
+  EXPECT_EQ(r.code, 0) << r.err;
+  const auto direct = parsed(read("s.json"))["statistics"]["direct lighting"];
+  EXPECT_EQ(direct["share of glossy points"], 1);
+  const std::string file = path("out.exr").string();
+  const Image samples = readExrLayer(file, "brdfsamples"), share = readExrLayer(file, "bsdfdraws");
+  double all = 0, ofBsdf = 0;
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 6; ++x) {
+      all += static_cast<double>(samples.at(x, y, 0));
+      ofBsdf += static_cast<double>(samples.at(x, y, 0) * share.at(x, y, 0));
+    }
+  }
+  const double mean = direct["BRDF-aware samples a glossy point"];
+  EXPECT_GT(mean, 1);
+  EXPECT_NEAR(all / 36, mean, 1e-4 * mean);
+  EXPECT_NEAR(ofBsdf / all, direct["share of BSDF samples"], 1e-4);
+}
+
 TEST_F(Snapshots, AovsAreDeterministicAndResume) {
   const std::string all = "--aov albedo,normal,depth,variance,lightcut,bsdfshare,pathlength ";
   EXPECT_EQ(run(all + "--spp 9 --threads 1 -o a.exr tiny.pbrt").code, 0);
