@@ -215,7 +215,8 @@ bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
     recordSurface(*path.state.aov, at, bsdf, path.stream);
   }
   path.normal = at.n;
-  path.from = LightSampleContext(at, bsdf);
+  // In place: to copy what was just written, in larger pieces, waits for all of it.
+  std::construct_at(&path.from, at, bsdf);
   const GuidePoint where{at.p, faceForward(at.n, at.wo), bsdf.transmits()};
   path.entersBelow = scattersBelow_ && material && material->scattersBelow();
   path.below = false;
