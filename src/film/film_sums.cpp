@@ -125,18 +125,18 @@ void FilmSums::write(const std::string& path, const ImageMetadata& metadata) con
 }
 
 std::string FilmSums::save() const {
-  std::string bytes = encodeSums(frame_, pixels_, aovs_.values());
-  if (lightImage_.isOpen()) bytes += lightImage_.encode();
-  return bytes;
+  if (!lightImage_.isOpen()) return encodeSums(frame_, pixels_, aovs_.values(), 0);
+  return encodeSums(frame_, pixels_, aovs_.values(), lightImage_.encodedSize()) +
+         lightImage_.encode();
 }
 
 bool FilmSums::restore(std::string_view bytes) {
-  if (decodeSums(bytes, frame_, pixels_, aovs_.values())) return true;
+  if (decodeSums(bytes, frame_, pixels_, aovs_.values(), 0)) return true;
   const size_t tail = lightImage_.encodedSize();
   if (bytes.size() < tail) return false;
   const std::string_view light = bytes.substr(bytes.size() - tail);
   return LightImage::isIntact(light) &&
-         decodeSums(bytes.substr(0, bytes.size() - tail), frame_, pixels_, aovs_.values()) &&
+         decodeSums(bytes.substr(0, bytes.size() - tail), frame_, pixels_, aovs_.values(), tail) &&
          lightImage_.decode(light);
 }
 

@@ -15,22 +15,24 @@ static_assert(std::endian::native == std::endian::little);
 
 struct Header {
   std::array<char, 8> magic{'L', 'A', 'M', 'P', 'F', 'I', 'L', 'M'};
-  uint32_t version = 3;
+  uint32_t version = 4;
   uint32_t pixelBytes = sizeof(PixelSums);
   std::array<int32_t, 2> resolution{};
   std::array<int32_t, 4> bounds{};
   uint64_t aovs = 0;
   double scale = 0;
+  uint64_t tail = 0;
 
   bool operator==(const Header&) const = default;
 };
 
-Header headerOf(const FilmFrame& f) {
+Header headerOf(const FilmFrame& f, size_t tail) {
   Header h;
   h.resolution = {f.resolution.x, f.resolution.y};
   h.bounds = {f.bounds.min.x, f.bounds.min.y, f.bounds.max.x, f.bounds.max.y};
   h.aovs = f.aovs.bits();
   h.scale = f.scale;
+  h.tail = tail;
   return h;
 }
 
@@ -53,8 +55,8 @@ uint64_t checksum(const char* bytes, size_t size) {
 }
 
 std::string encodeSums(const FilmFrame& frame, std::span<const PixelSums> sums,
-                       std::span<const WideSum> aovSums) {
-  const Header header = headerOf(frame);
+                       std::span<const WideSum> aovSums, size_t tail) {
+  const Header header = headerOf(frame, tail);
   std::string bytes;
   bytes.reserve(sizeof header + sums.size_bytes() + aovSums.size_bytes() + sizeof(uint64_t));
   bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
@@ -77,13 +79,14 @@ std::optional<FilmFrame> frameOfSums(std::string_view bytes) {
 }
 
 bool decodeSums(std::string_view bytes, const FilmFrame& frame, std::span<PixelSums> sums,
-                std::span<WideSum> aovSums) {
+                std::span<WideSum> aovSums, size_t tail) {
   if (bytes.size() < sizeof(Header) + sizeof(uint64_t)) return false;
   const size_t body = bytes.size() - sizeof(uint64_t);
   if (body - sizeof(Header) != sums.size_bytes() + aovSums.size_bytes()) return false;
   uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + body, sizeof sum);
-  if (readHeader(bytes) != headerOf(frame) || sum != checksum(bytes.data(), body)) return false;
+  if (readHeader(bytes) != headerOf(frame, tail) || sum != checksum(bytes.data(), body))
+    return false;
   const char* const data = bytes.data() + sizeof(Header);
   std::memcpy(sums.data(), data, sums.size_bytes());
   if (!aovSums.empty()) std::memcpy(aovSums.data(), data + sums.size_bytes(), aovSums.size_bytes());

@@ -32,13 +32,15 @@ struct FilmFrame {
 
 /// Depends on every bit and on the order; `size` is a multiple of 8.
 uint64_t checksum(const char* bytes, size_t size);
-/// Header (magic, version, frame), sums, those of the AOVs, checksum; little-endian.
+/// Header (magic, version, frame, tail), sums, those of the AOVs, checksum; little-endian. `tail`:
+/// bytes that the caller lets follow.
 std::string encodeSums(const FilmFrame& frame, std::span<const PixelSums> sums,
-                       std::span<const WideSum> aovSums);
+                       std::span<const WideSum> aovSums, size_t tail);
 /// What encoded sums are of, as far as their header tells; none if they are too short for one.
 std::optional<FilmFrame> frameOfSums(std::string_view bytes);
-/// Back; false, with the outputs untouched, if the bytes are damaged or of another frame.
+/// Back; false, with the outputs untouched, if the bytes are damaged, or of another frame or
+/// tail. The tail is not among them.
 bool decodeSums(std::string_view bytes, const FilmFrame& frame, std::span<PixelSums> sums,
-                std::span<WideSum> aovSums);
+                std::span<WideSum> aovSums, size_t tail);
 
 }  // namespace lampyris
