@@ -54,9 +54,10 @@ double leftByControlGroup(const std::string& root) {
     const bool second = line.starts_with("0::");
     if (!second && controllers.find(",memory,") == std::string::npos) continue;
     const Hierarchy& hierarchy = second ? kSecond : kFirst;
+    const std::string folder = root + hierarchy.folder;
     // In a container the path may be the host's: then the folder itself is the group.
     for (std::string group = line.substr(path + 1);; group.resize(group.rfind('/'))) {
-      left = std::min(left, leftOf(root + hierarchy.folder + group, hierarchy));
+      left = std::min(left, leftOf(folder + group, hierarchy));
       if (group.empty()) break;
     }
   }

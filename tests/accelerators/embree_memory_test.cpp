@@ -3,6 +3,7 @@
 #include "accelerators/embree_memory.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <malloc.h>
 
 #include <fstream>
