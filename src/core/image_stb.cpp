@@ -128,19 +128,23 @@ Image load(const std::string& path, std::string_view bytes, const StbMemory& mem
   return toImage(pixels, width, height, channels, unit);
 }
 
+bool isPng(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
+
 int64_t maxPixelsPerByte(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG")) return kMaxPixelsPerByte;
+  if (isPng(bytes)) return kMaxPixelsPerByte;
   return bytes.starts_with('\xff') ? kMaxJpgPixelsPerByte : kMaxOtherPixelsPerByte;
 }
 
 constexpr size_t kMemoryOfHeaders = 1 << 16;
 
 /// More than stb needs for an image of this size; it rounds the sides of JPG images up to 32.
-size_t memoryFor(int width, int height, size_t fileSize) {
-  constexpr size_t kPixel = 32, kBlock = 32;
+size_t memoryFor(int width, int height, std::string_view bytes) {
+  constexpr size_t kPixel = 32;
+  // JPG files are decoded by blocks; the rows of PNG files begin with a byte of their own.
+  const size_t block = isPng(bytes) ? 1 : 32;
   const size_t pixels =
-      (static_cast<size_t>(width) + kBlock) * (static_cast<size_t>(height) + kBlock);
-  return kMemoryOfHeaders + 4 * fileSize + kPixel * pixels;
+      (static_cast<size_t>(width) + block) * (static_cast<size_t>(height) + block);
+  return kMemoryOfHeaders + 4 * bytes.size() + kPixel * pixels;
 }
 
 unsigned char toByte(float v) {
@@ -185,7 +189,7 @@ LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   checkImageSize(path, width, height);
   if (int64_t{width} * height > maxPixelsPerByte(bytes) * size)
     failImageRead(path, "the file is truncated, or its size is wrong");
-  stbMemory.setLimit(memoryFor(width, height, bytes.size()));
+  stbMemory.setLimit(memoryFor(width, height, bytes));
 
   if (stbi_is_hdr_from_memory(memory, size)) {
     const auto loader = [](StbSource* s, int* w, int* h, int* c) {
