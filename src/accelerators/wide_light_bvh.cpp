@@ -57,7 +57,8 @@ SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, doub
                                            double count) const {
   const uint32_t first = cluster.firstLight, last = first + cluster.clusterLights - 1;
   // Where it is if all are as strong: not far from where it is.
-  uint32_t place = first + static_cast<uint32_t>(u * cluster.clusterLights);
+  uint32_t place = std::min(first + static_cast<uint32_t>(u * cluster.clusterLights), last);
+  if (cluster.even) return {lights_[place], static_cast<float>(count / cluster.clusterLights)};
   __builtin_prefetch(&lights_[place]);
   __builtin_prefetch(&intensitiesBefore_[place]);
   const Units units = unitsOf(first, cluster.clusterLights);
@@ -68,6 +69,7 @@ SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, doub
 }
 
 double WideLightBVH::shareOfIntensity(const WideLightBVHNode& cluster, uint32_t place) const {
+  if (cluster.even) return 1. / cluster.clusterLights;
   const Units all = unitsOf(cluster.firstLight, cluster.clusterLights), own = unitsOf(place, 1);
   return static_cast<double>(own.end - own.begin) / (all.end - all.begin);
 }

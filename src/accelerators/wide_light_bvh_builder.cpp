@@ -15,10 +15,14 @@ constexpr size_t kWidth = WideLightBVHNode::kWidth;
 constexpr float kLeastExtent = 1e-10f;
 /// Lights of a piece of the tree that one thread collapses.
 constexpr uint32_t kPieceLights = 16384;
-/// The most lights of a cluster: few enough to look alike from most places, enough to save levels.
-constexpr uint32_t kClusterLights = 512;
+/// The most lights of a cluster whose lights differ in intensity.
+constexpr uint32_t kClusterLights = 2048;
+/// Lights count as equally strong if none is stronger than another by more than this factor.
+constexpr float kEven = 1.05f;
+/// Trees of so few lights have no clusters.
+constexpr uint32_t kFewLights = 512;
 /// The fewest units of intensity for each light of a cluster that is drawn from by them.
-constexpr uint32_t kUnitsPerLight = 32;
+constexpr uint32_t kUnitsPerLight = 16;
 
 /// What all children of a subtree of this many lights should hold: the largest power of the width
 /// that leaves more than one child.
@@ -44,20 +48,16 @@ void WideLightBVHBuilder::build() {
   out_.radius2_ = dot(binary_[0].halfExtent(), binary_[0].halfExtent());
 
   const Subtree all{0, static_cast<uint32_t>(binary_.size())};
-  hasClusters_ = all.lights() > kClusterLights;
+  hasClusters_ = all.lights() > kFewLights;
   Piece top;
-  top.nodes.emplace_back();
-  top.parents.push_back(WideLightBVH::kNone);
-  top.pending.push_back({all, 0, 1});
+  start(top, {all, 0, 1}, WideLightBVH::kNone);
   std::vector<Task> roots;
   collapse(top, all.lights() > kPieceLights ? kPieceLights : 0, roots);
   std::vector<Piece> pieces(roots.size());
   parallelFor(roots.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       std::vector<Task> none;
-      pieces[i].nodes.emplace_back();
-      pieces[i].parents.push_back(top.parents[roots[i].node]);
-      pieces[i].pending.push_back({roots[i].subtree, 0, roots[i].depth});
+      start(pieces[i], {roots[i].subtree, 0, roots[i].depth}, top.parents[roots[i].node]);
       collapse(pieces[i], 0, none);
       addIntensities(pieces[i]);
     }
@@ -88,8 +88,36 @@ void WideLightBVHBuilder::build() {
   });
 }
 
-bool WideLightBVHBuilder::isCluster(const Subtree& subtree) const {
-  if (!hasClusters_ || subtree.lights() > kClusterLights) return false;
+void WideLightBVHBuilder::start(Piece& piece, const Task& root, uint32_t parent) const {
+  piece.nodes.emplace_back();
+  piece.parents.push_back(parent);
+  piece.pending.push_back(root);
+  const Subtree& s = root.subtree;
+  if (!hasClusters_ || s.lights() > kPieceLights) return;
+  piece.firstRange = s.first;
+  piece.ranges.resize(s.end - s.first);
+  // Children have higher numbers than their parents.
+  for (uint32_t i = s.end; i-- > s.first;) {
+    Range& range = piece.ranges[i - s.first];
+    if (binary_[i].isLeaf()) {
+      range.least = range.most = binary_[i].intensity();
+    } else {
+      const Range& left = piece.ranges[i + 1 - s.first];
+      const Range& right = piece.ranges[binary_[i].rightChild() - s.first];
+      range = {std::min(left.least, right.least), std::max(left.most, right.most)};
+    }
+  }
+}
+
+bool WideLightBVHBuilder::isEven(const Piece& piece, const Subtree& subtree) {
+  const Range& range = piece.ranges[subtree.first - piece.firstRange];
+  return range.most <= kEven * range.least;
+}
+
+bool WideLightBVHBuilder::isCluster(const Piece& piece, const Subtree& subtree) const {
+  // Of larger subtrees the lights do not lie side by side.
+  if (!hasClusters_ || subtree.lights() > kPieceLights) return false;
+  if (subtree.lights() > kClusterLights && !isEven(piece, subtree)) return false;
   // Emitters that together face all ways look different from anywhere.
   const auto first = binary_.begin() + subtree.first, end = binary_.begin() + subtree.end;
   return !first->allNormals() ||
@@ -151,9 +179,12 @@ void WideLightBVHBuilder::fill(const Task& task, Piece& piece) const {
   WideLightBVHNode encoded;
   const float strongest = encoded.encode({nodes.data(), count}, leastExtent_);
   if (task.subtree.first == 0) out_.strongest_ = strongest;
-  const bool inCluster = task.inCluster || isCluster(task.subtree);
-  if (inCluster) encoded.clusterLights = task.subtree.lights();
-  if (inCluster && !task.inCluster) piece.clusters.push_back(task.node);
+  const bool inCluster = task.inCluster || isCluster(piece, task.subtree);
+  if (inCluster) {
+    encoded.clusterLights = task.subtree.lights() & 0x7fffffff;
+    encoded.even = isEven(piece, task.subtree);
+    if (!task.inCluster && !encoded.even) piece.clusters.push_back(task.node);
+  }
   encoded.firstLight = static_cast<uint32_t>(piece.lights.size());
   encoded.firstChild = static_cast<uint32_t>(piece.nodes.size());
   piece.nodes[task.node] = encoded;
@@ -186,6 +217,7 @@ void WideLightBVHBuilder::addIntensities(Piece& piece) {
     }
   }
   for (WideLightBVHNode& node : piece.nodes) {
+    if (node.even) continue;
     const uint32_t next = piece.intensitiesBefore[node.firstLight + node.clusterLights];
     const uint32_t units =
         (next > 0 ? next : WideLightBVH::kWhole) - piece.intensitiesBefore[node.firstLight];

@@ -22,6 +22,10 @@ class WideLightBVHBuilder {
     uint32_t lights() const { return (end - first + 1) / 2; }
   };
   using Children = std::array<Subtree, WideLightBVHNode::kWidth>;
+  /// Of intensities.
+  struct Range {
+    float least, most;
+  };
   /// An inner node still to be filled in.
   struct Task {
     Subtree subtree;
@@ -34,8 +38,10 @@ class WideLightBVHBuilder {
     std::vector<uint32_t> parents;        ///< per node; the root's is that of the top
     std::vector<LightId> lights;
     std::vector<float> intensities;           ///< per light
+    std::vector<Range> ranges;                ///< per node of the binary tree below the root
+    uint32_t firstRange = 0;                  ///< the root there
     std::vector<uint16_t> intensitiesBefore;  ///< per light; none if the tree has no clusters
-    std::vector<uint32_t> clusters;           ///< the largest ones: numbers of nodes
+    std::vector<uint32_t> clusters;           ///< the largest uneven ones: numbers of nodes
     std::vector<Task> pending;
     uint32_t depth = 0;  ///< levels above and within
   };
@@ -45,7 +51,10 @@ class WideLightBVHBuilder {
   };
 
   size_t chooseChildren(const Subtree& root, Children& children) const;
-  bool isCluster(const Subtree& subtree) const;
+  /// Prepares to collapse the subtree into the piece, whose root's parent is given.
+  void start(Piece& piece, const Task& root, uint32_t parent) const;
+  static bool isEven(const Piece& piece, const Subtree& subtree);
+  bool isCluster(const Piece& piece, const Subtree& subtree) const;
   void open(Children& children, size_t& count, size_t which) const;
   /// Fills in the pending nodes, and puts those of at most `leave` lights aside.
   void collapse(Piece& piece, uint32_t leave, std::vector<Task>& aside) const;

@@ -44,7 +44,8 @@ struct alignas(32) WideLightBVHNode {
   uint32_t firstChild = 0, firstLight = 0;
   /// Of a cluster that may be drawn from by intensity alone: the number of its lights, from
   /// firstLight on. 0 for any other node.
-  uint32_t clusterLights = 0;
+  uint32_t clusterLights : 31 = 0;
+  uint32_t even : 1 = 0;  ///< whether those are about as strong as each other
   uint8_t leaves = 0, inner = 0;
   uint8_t allNormals = 0xff;  ///< children whose normals may have any direction, and no children
   uint8_t twoSided = 0;

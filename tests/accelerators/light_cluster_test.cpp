@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Clusters of the wide light BVH whose lights are drawn by intensity alone.
+#include <algorithm>
+
 #include "light_trees.h"
 
 namespace lampyris::test {
@@ -7,16 +9,16 @@ namespace {
 
 constexpr size_t kLights = 2000;
 
-TEST(LightClusters, DrawAsPmfSays) {
-  const auto lights = makeLights(Kind::Points, kLights);
+void expectDrawsAsPmfSays(const Lights& lights) {
   const WideLightBVH tree{LightBVHAccel(lights)};
-  for (const auto& c : {volumeAt({9, 3, 2}), opaqueAt({-7, 1, 3}, normalize(Vec3(4, 1, 1)))}) {
+  for (const auto& c :
+       {volumeAt({9, 3, 2}), opaqueAt({-7, 1, 3}, normalize(Vec3(4, 1, 1))), volumeAt({2, 1, 1})}) {
     const LightReceiver at(c);
-    const auto all = pmfs(tree, c, kLights);
+    const auto all = pmfs(tree, c, lights.size());
     EXPECT_NEAR(sumOf(all), 1, 1e-5);
     const int n = 100'000;
-    std::vector<double> observed(kLights, 0.), expected(kLights);
-    for (size_t l = 0; l < kLights; ++l) expected[l] = n * all[l];
+    std::vector<double> observed(lights.size(), 0.), expected(lights.size());
+    for (size_t l = 0; l < lights.size(); ++l) expected[l] = n * all[l];
     for (int k = 0; k < n; ++k) {
       const auto s = tree.sample(at, uniform(79, static_cast<uint64_t>(k), 3));
       ASSERT_TRUE(s);
@@ -25,6 +27,28 @@ TEST(LightClusters, DrawAsPmfSays) {
     }
     EXPECT_EQ(chiSquareTest(observed, expected), "");
   }
+}
+
+TEST(LightClusters, DrawAsPmfSays) { expectDrawsAsPmfSays(makeLights(Kind::Points, kLights)); }
+
+// First all of them, then those of one half.
+TEST(LightClusters, OfLightsAboutAsStrongDrawAsPmfSays) {
+  Lights lights = makeLights(Kind::Points, 5 * kLights);
+  for (LightBVHInput& l : lights) l.bounds.intensity = 1 + 0.03f * random(l.id, 9);
+  expectDrawsAsPmfSays(lights);
+  for (LightBVHInput& l : lights)
+    if (l.bounds.box.min.x > 0.5f) l.bounds.intensity = 0.1f + random(l.id, 9);
+  expectDrawsAsPmfSays(lights);
+}
+
+TEST(LightClusters, OfEvenLightsAreDrawnFromAlike) {
+  Lights lights = makeLights(Kind::Points, 10 * kLights);
+  for (LightBVHInput& l : lights) l.bounds.intensity = 1;
+  const WideLightBVH tree{LightBVHAccel(lights)};
+  std::vector<double> all = pmfs(tree, volumeAt({40, 3, 2}), lights.size());
+  std::sort(all.begin(), all.end());
+  // Those of a child of the root, at most eight different ones.
+  EXPECT_LE(std::unique(all.begin(), all.end()) - all.begin(), 8);
 }
 
 TEST(LightClusters, DrawFaintLightsBesideAStrongOne) {
