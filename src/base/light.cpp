@@ -11,13 +11,26 @@ LightId LightTable::add(const Light* light) {
   const uint32_t elements = light->elementCount();
   if (dense_ && elements != 1) {
     dense_ = false;
+    rows_.clear();
     owner_.resize(size_);
     std::iota(owner_.begin(), owner_.end(), 0u);
   }
   objects_.push_back({light, first});
+  if (dense_) addToRow(first, light);
   if (!dense_) owner_.insert(owner_.end(), elements, index);
   size_ += elements;
   return first;
+}
+
+void LightTable::addToRow(LightId id, const Light* light) {
+  const uint32_t place = id % kRow;
+  if (place == 0) rows_.push_back({light, 0});
+  Row& row = rows_.back();
+  if (place == 1) {
+    row.stride = reinterpret_cast<const char*>(light) - reinterpret_cast<const char*>(row.first);
+  } else if (light != row.at(place)) {
+    row.stride = 0;
+  }
 }
 
 }  // namespace lampyris

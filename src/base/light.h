@@ -142,6 +142,10 @@ class LightTable {
   LightId add(const Light* light);
   uint32_t size() const { return size_; }
   Entry operator[](LightId id) const {
+    if (dense_) {
+      const Row& row = rows_[id / kRow];
+      if (row.stride != 0) return {row.at(id % kRow), 0};
+    }
     const Object& o = objects_[dense_ ? id : owner_[id]];
     return {o.light, id - o.firstId};
   }
@@ -154,7 +158,21 @@ class LightTable {
     const Light* light;
     LightId firstId;
   };
+  /// Lights that lie in memory at equal distances, as those made one after the other do: they are
+  /// found without a look at `objects_`, which misses the caches where lights are many.
+  struct Row {
+    const Light* first;
+    ptrdiff_t stride;  ///< in bytes; 0: they do not
+    const Light* at(uint32_t i) const {
+      return reinterpret_cast<const Light*>(reinterpret_cast<const char*>(first) +
+                                            static_cast<ptrdiff_t>(i) * stride);
+    }
+  };
+  static constexpr uint32_t kRow = 1024;
+  void addToRow(LightId id, const Light* light);
+
   HugeVector<Object> objects_;
+  std::vector<Row> rows_;       ///< of kRow ids each, while dense
   HugeVector<uint32_t> owner_;  ///< index in objects_, per id; empty while dense
   uint32_t size_ = 0;
   /// While every object is one light its id is its index: a cache miss less where objects are many.

@@ -56,6 +56,30 @@ TEST(LightTable, OfSingleLightsAndOfNone) {
   EXPECT_EQ(late[1].light, &b);
 }
 
+TEST(LightTable, FindsSingleLightsWhereverTheyLie) {
+  constexpr size_t kCount = 3000;
+  const std::vector<DarkLight> sideBySide(kCount, DarkLight(1));
+  std::vector<const DarkLight*> odd;  // one out of its row
+  for (const DarkLight& light : sideBySide) odd.push_back(&light);
+  std::swap(odd[1500], odd[2900]);
+  LightTable rows, disturbed, backwards, late;
+  for (size_t i = 0; i < kCount; ++i) {
+    rows.add(&sideBySide[i]);
+    disturbed.add(odd[i]);
+    backwards.add(&sideBySide[kCount - 1 - i]);
+    late.add(&sideBySide[i]);
+  }
+  const DarkLight mesh(7);
+  late.add(&mesh);
+  for (LightId id = 0; id < kCount; ++id) {
+    EXPECT_EQ(rows[id].light, &sideBySide[id]);
+    EXPECT_EQ(disturbed[id].light, odd[id]);
+    EXPECT_EQ(backwards[id].light, &sideBySide[kCount - 1 - id]);
+    EXPECT_EQ(late[id].light, &sideBySide[id]);
+  }
+  EXPECT_EQ(late[kCount + 6].element, 6u);
+}
+
 class FixedDistribution final : public LightDistribution {
  public:
   std::optional<SampledLight> sample(const LightSampleContext&, float) const override {
