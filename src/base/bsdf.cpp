@@ -63,7 +63,7 @@ class SideRule {
 Vec3 tangentAlong(const Vec3& d, const Vec3& z) {
   Vec3 x = d - dot(d, z) * z;
   const float x2 = lengthSquared(x), d2 = lengthSquared(d);
-  if (x2 > 0.01f * d2 && x2 > 1e-30f && d2 < 1e30f) return x / std::sqrt(x2);
+  if (x2 > 0.01f * d2 && x2 > 1e-30f && d2 < 1e30f) return x * (1 / std::sqrt(x2));
   // Nearly parallel to z or of extreme length: twice is enough (Gram-Schmidt).
   const Vec3 unit = normalize(d);
   x = unit - dot(unit, z) * z;

@@ -26,8 +26,9 @@ inline Vec2 circlePoint(float turns) {
   const float quarters = 4 * turns, nearest = std::floor(quarters + 0.5f);
   const Vec2 p = octantPoint(2 * (quarters - nearest));
   const int k = static_cast<int>(nearest);
-  const Vec2 turned = k & 1 ? Vec2(-p.y, p.x) : p;
-  return k & 2 ? -turned : turned;
+  const bool odd = k & 1;
+  const float sign = static_cast<float>(1 - (k & 2));  // jumps would not be foreseen
+  return {sign * (odd ? -p.y : p.x), sign * (odd ? p.x : p.y)};
 }
 
 /// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
@@ -37,7 +38,7 @@ inline Vec2 sampleConcentricDisk(const Vec2& u) {
   const bool wide = std::abs(p.x) > std::abs(p.y);
   const float r = wide ? p.x : p.y;
   const Vec2 d = r * octantPoint((wide ? p.y : p.x) / r);
-  return wide ? d : Vec2(d.y, d.x);
+  return {wide ? d.x : d.y, wide ? d.y : d.x};
 }
 /// A direction of the upper hemisphere with pdf cos θ / π.
 inline Vec3 sampleCosineHemisphere(const Vec2& u) {

@@ -30,6 +30,7 @@ class UniformLightDistribution final : public LightDistribution {
 
   std::optional<SampledLight> sample(const LightSampleContext& ctx, float u) const override {
     if (ids_.empty() || !(ctx.reflects || ctx.transmits)) return std::nullopt;
+    if (ids_.size() == 1) return SampledLight{ids_[0], 1};
     const double at = refineVariate(u, ctx.p) * static_cast<double>(ids_.size());
     return SampledLight{ids_[std::min(static_cast<size_t>(at), ids_.size() - 1)], each()};
   }

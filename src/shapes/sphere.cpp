@@ -57,11 +57,13 @@ class Sphere final : public Quadric, public HugePageObject {
   }
   DVec2 parametersOf(const DVec3& p) const { return {azimuth(p.x, p.y) / phiMax_, vOf(p.z)}; }
   std::optional<DVec2> accept(const DVec3& p) const;
-  /// The cone's half-angle as seen from `from`; none where the sphere is not sampled by
-  /// its cone: partial, under a map that makes it no sphere, or from inside.
+  /// In which the sphere is seen from a point; none where it is not sampled by its cone: partial,
+  /// under a map that makes it no sphere, or from inside.
   struct Cone {
-    double oneMinusCos, sin, distance;
-    DVec3 axis;
+    DVec3 toCentre;
+    double distance2, sin2, cos;  ///< of the half-angle
+    double oneMinusCos() const { return sin2 / (1 + cos); }
+    float pdf() const { return uniformConePdf(static_cast<float>(oneMinusCos())); }
   };
   std::optional<Cone> coneFrom(const Vec3& from) const;
   std::optional<ShapeSample> sampleCone(const Cone& cone, const Vec2& u) const;
@@ -156,13 +158,8 @@ std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
   const DVec3 toCentre = worldOrigin() - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
   if (!(d2 > r * r) || !std::isfinite(d2)) return cone;
-  const double d = std::sqrt(d2), inverse = 1 / d;
-  const double sin = r * inverse, sin2 = sin * sin;
-  Cone& c = cone.emplace();
-  c.oneMinusCos = sin2 / (1 + safeSqrt(1 - sin2));
-  c.sin = sin;
-  c.distance = d;
-  c.axis = toCentre * inverse;
+  const double sin2 = r * r / d2;
+  cone.emplace(Cone{toCentre, d2, sin2, safeSqrt(1 - sin2)});
   return cone;
 }
 
@@ -174,7 +171,7 @@ std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3
 
 std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) const {
   std::optional<ShapeSample> out;
-  const float pdf = uniformConePdf(static_cast<float>(cone.oneMinusCos));
+  const float pdf = cone.pdf();
   if (!(area(0) > 0)) return out;
   if (!std::isfinite(pdf)) {
     countRejection(Rejection::LightDensity);
@@ -182,20 +179,24 @@ std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) c
   }
 
   // A direction at θ from the axis meets the sphere at the angle α from the axis, as seen from the
-  // centre: α = asin(sin θ / sin θmax) − θ.
-  const double h = static_cast<double>(u.x) * cone.oneMinusCos, cosTheta = 1 - h;
-  const double sinTheta = std::sqrt(h * (2 - h));
-  const double ratio = std::min(1., sinTheta / cone.sin), rest = std::sqrt(1 - ratio * ratio);
-  const double cosAlpha = ratio * sinTheta + cosTheta * rest;
-  const double sinAlpha = ratio * cosTheta - sinTheta * rest;
+  // centre: α = asin(k) − θ with k = sin θ / sin θmax. From 1 − cos θ = u (1 − cos θmax) follows
+  // k² = u (1 + cos θ) / (1 + cos θmax). Written such that few roots and quotients wait for others.
+  const double h = static_cast<double>(u.x) / (1 + cone.cos), cosTheta = 1 - h * cone.sin2;
+  const double k2 = std::min(1., h * (1 + cosTheta));
+  const double k = std::sqrt(k2), rest = std::sqrt(1 - k2), sin = std::sqrt(cone.sin2);
+  const double cosAlpha = k2 * sin + cosTheta * rest;
+  const double sinAlpha = k * (cosTheta - sin * rest);
+  const DVec3 axis = cone.toCentre / std::sqrt(cone.distance2);
   // Azimuth and frame are good to float precision, which turns the draw as a whole by that much.
   const Vec2 around = circlePoint(u.y);
-  const Frame frame = Frame::fromZ(Vec3(-cone.axis));
-  const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * cone.axis;
+  const Frame frame = Frame::fromZ(Vec3(-axis));
+  const DVec3 n = sinAlpha * DVec3(around.x * frame.x + around.y * frame.y) - cosAlpha * axis;
   ShapeSample& s = out.emplace();
   // The map may be off from a similarity by its rounding: M Mᵀn / |Mᵀn| is on the surface exactly.
+  // The length is 1 but for rounding in single precision, so the root's tangent is its inverse.
   const DVec3 mapped = corrected(n);
-  s.p = Vec3(worldOrigin() + ballRadius() / std::sqrt(glm::dot(n, mapped)) * mapped);
+  const double inverseLength = 1.5 - 0.5 * glm::dot(n, mapped);
+  s.p = Vec3(worldOrigin() + ballRadius() * inverseLength * mapped);
   s.pError = worldError(s.p);
   s.n = orientation() * Vec3(n);
   s.pdf = pdf;
@@ -209,9 +210,10 @@ float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
   // The far side is never drawn. On the silhouette rounding of p decides nothing.
   const DVec3 fromCentre = DVec3(p) - worldOrigin(), back = DVec3(from) - DVec3(p);
   const double reach = glm::length(worldOrigin()) + 2 * ballRadius();  // of its points at most
-  const double tolerance = 8 * static_cast<double>(kMachineEpsilon) * reach * cone->distance;
+  const double tolerance =
+      8 * static_cast<double>(kMachineEpsilon) * reach * std::sqrt(cone->distance2);
   if (glm::dot(fromCentre, back) < -tolerance) return 0;
-  const float pdf = uniformConePdf(static_cast<float>(cone->oneMinusCos));
+  const float pdf = cone->pdf();
   return std::isfinite(pdf) && area(element) > 0 ? pdf : 0;
 }
 

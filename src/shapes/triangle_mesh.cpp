@@ -55,8 +55,8 @@ struct UvSolver {
 }  // namespace
 
 struct TriangleMesh::Corners {
-  std::array<uint32_t, 3> index;
-  Vec3 p0, p1, p2;
+  const uint32_t* index;
+  const Vec3 &p0, &p1, &p2;  ///< not copied: what is stored in pieces and read as a whole stalls
 
   /// Twice the area along the normal. In double: slivers keep their direction.
   DVec3 areaNormal() const { return glm::cross(DVec3(p1) - DVec3(p0), DVec3(p2) - DVec3(p0)); }
@@ -113,7 +113,7 @@ TriangleMesh::TriangleMesh(TriangleMeshData data, const Transform& objectToWorld
 
 TriangleMesh::Corners TriangleMesh::corners(uint32_t element) const {
   const uint32_t* i = &data_.indices[3 * static_cast<size_t>(element)];
-  return {{i[0], i[1], i[2]}, data_.positions[i[0]], data_.positions[i[1]], data_.positions[i[2]]};
+  return {i, data_.positions[i[0]], data_.positions[i[1]], data_.positions[i[2]]};
 }
 
 std::array<Vec2, 3> TriangleMesh::uvs(const Corners& c) const {
