@@ -59,7 +59,8 @@ TEST(LightTable, OfSingleLightsAndOfNone) {
 TEST(LightTable, FindsSingleLightsWhereverTheyLie) {
   constexpr size_t kCount = 3000;
   const std::vector<DarkLight> sideBySide(kCount, DarkLight(1));
-  std::vector<const DarkLight*> odd;  // one out of its row
+  std::vector<const DarkLight*> odd;  // two out of their rows
+  odd.reserve(kCount);
   for (const DarkLight& light : sideBySide) odd.push_back(&light);
   std::swap(odd[1500], odd[2900]);
   LightTable rows, disturbed, backwards, late;
