@@ -58,13 +58,14 @@ SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, doub
   const uint32_t first = cluster.firstLight, last = first + cluster.clusterLights - 1;
   // Where it is if all are as strong: not far from where it is.
   uint32_t place = std::min(first + static_cast<uint32_t>(u * cluster.clusterLights), last);
-  if (cluster.even) return {lights_[place], static_cast<float>(count / cluster.clusterLights)};
-  __builtin_prefetch(&lights_[place]);
-  __builtin_prefetch(&intensitiesBefore_[place]);
-  const Units units = unitsOf(first, cluster.clusterLights);
-  const auto at = units.begin + static_cast<uint32_t>(u * (units.end - units.begin));
-  while (intensitiesBefore_[place] > at) --place;
-  while (place < last && intensitiesBefore_[place + 1] <= at) ++place;
+  if (!cluster.even) {
+    __builtin_prefetch(&lights_[place]);
+    __builtin_prefetch(&intensitiesBefore_[place]);
+    const Units units = unitsOf(first, cluster.clusterLights);
+    const auto at = units.begin + static_cast<uint32_t>(u * (units.end - units.begin));
+    while (intensitiesBefore_[place] > at) --place;
+    while (place < last && intensitiesBefore_[place + 1] <= at) ++place;
+  }
   return {lights_[place], static_cast<float>(count * shareOfIntensity(cluster, place))};
 }
 
