@@ -105,7 +105,7 @@ LoadedImage readImageFile(const std::string& path) {
   try {
     const MappedFile file(path);
     if (file.text().empty()) failImageRead(path, "the file is empty");
-    if (stb) return readStbImage(path, file.text());
+    if (stb) return (isJpeg(file.text()) ? readJpegImage : readStbImage)(path, file.text());
     return ending == ".exr" ? readExrImage(path, file.text()) : readPfmImage(path, file.text());
   } catch (const std::bad_alloc&) {
     failImageRead(path, "not enough memory");

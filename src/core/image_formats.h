@@ -30,10 +30,14 @@ void checkImageSize(const std::string& path, int64_t width, int64_t height);
 
 /// `bytes` are the file's contents, `path` its name for messages.
 LoadedImage readStbImage(const std::string& path, std::string_view bytes);
+/// Grey, RGB or CMYK (which becomes RGB).
+LoadedImage readJpegImage(const std::string& path, std::string_view bytes);
+/// By its first bytes, whatever the file's name.
+bool isJpeg(std::string_view bytes);
 LoadedImage readExrImage(const std::string& path, std::string_view bytes);
 LoadedImage readPfmImage(const std::string& path, std::string_view bytes);
 
-/// `ending` is in lower case, with its dot.
+/// PNG, TGA, BMP, HDR and JPG; `ending` is in lower case, with its dot.
 void writeStbImage(const std::string& path, const std::string& ending, const Image& image);
 void writeExrImage(const std::string& path, const Image& image, const WriteOptions& options);
 void writePfmImage(const std::string& path, const Image& image);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG, JPG, TGA, BMP and HDR files through stb.
+// PNG, TGA, BMP and HDR files through stb, and JPG files to write.
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -51,62 +51,6 @@ struct StbSource {
 
 constexpr stbi_io_callbacks kCallbacks = {StbSource::read, StbSource::skip, StbSource::atEnd};
 
-/// Goes through a JPG file's markers as stb does and refuses Huffman tables of more than 256 codes:
-/// stb 2.27 writes beyond its arrays there.
-class JpgTableCheck {
- public:
-  explicit JpgTableCheck(std::string_view bytes) : bytes_(bytes) {}
-
-  bool isSafe() {
-    if (bytes_.empty() || bytes_[0] != '\xff' || nextMarker() != kStart) return true;  // no JPG
-    while (at_ < bytes_.size()) {
-      const int marker = nextMarker();
-      if (marker == kEnd) break;
-      if (marker == kHuffmanTables) {
-        if (!tablesAreSafe()) return false;
-      } else if (marker != 0 && !(marker >= kFirstRestart && marker <= kEnd)) {
-        const int length = word();
-        // After a JFIF segment of 7 bytes stb skips to an arbitrary place.
-        if (length < 2 || (marker == kJfif && length == 7)) return false;
-        at_ += static_cast<size_t>(length - 2);
-      }
-    }
-    return true;
-  }
-
- private:
-  static constexpr int kHuffmanTables = 0xc4, kFirstRestart = 0xd0, kStart = 0xd8, kEnd = 0xd9,
-                       kJfif = 0xe0, kPastEnd = 0x81;
-
-  int byte() { return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : kPastEnd; }
-  int word() {
-    const int high = byte();
-    return high << 8 | byte();
-  }
-  /// The byte after the next 0xff; 0 stands for a stuffed byte of image data.
-  int nextMarker() {
-    while (at_ < bytes_.size() && byte() != 0xff) {
-    }
-    int marker = byte();
-    while (marker == 0xff) marker = byte();
-    return marker;
-  }
-  bool tablesAreSafe() {
-    for (int left = word() - 2; left > 0;) {
-      byte();
-      int codes = 0;
-      for (int i = 0; i < 16; ++i) codes += byte();
-      if (codes > 256) return false;
-      at_ += static_cast<size_t>(codes);
-      left -= 17 + codes;
-    }
-    return true;
-  }
-
-  std::string_view bytes_;
-  size_t at_ = 0;
-};
-
 template <class Value>
 Image toImage(const Value* values, int width, int height, int channels, float unit) {
   Image image(width, height, channels);
@@ -130,21 +74,13 @@ Image load(const std::string& path, std::string_view bytes, const StbMemory& mem
 
 bool isPng(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
 
-int64_t maxPixelsPerByte(std::string_view bytes) {
-  if (isPng(bytes)) return kMaxPixelsPerByte;
-  return bytes.starts_with('\xff') ? kMaxJpgPixelsPerByte : kMaxOtherPixelsPerByte;
-}
-
 constexpr size_t kMemoryOfHeaders = 1 << 16;
 
-/// More than stb needs for an image of this size; it rounds the sides of JPG images up to 32.
+/// More than stb needs for an image of this size. Its rows may begin with a byte of their own.
 size_t memoryFor(int width, int height, std::string_view bytes) {
-  constexpr size_t kPixel = 32;
-  // JPG files are decoded by blocks; the rows of PNG files begin with a byte of their own.
-  const size_t block = isPng(bytes) ? 1 : 32;
-  const size_t pixels =
-      (static_cast<size_t>(width) + block) * (static_cast<size_t>(height) + block);
-  return kMemoryOfHeaders + 4 * bytes.size() + kPixel * pixels;
+  constexpr size_t kPixel = 32, kRow = 4;
+  const size_t row = kPixel * static_cast<size_t>(width) + kRow;
+  return kMemoryOfHeaders + 4 * bytes.size() + row * static_cast<size_t>(height);
 }
 
 unsigned char toByte(float v) {
@@ -179,7 +115,6 @@ void append(void* user, void* data, int size) {
 
 LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   if (bytes.size() > INT_MAX) failImageRead(path, "files of 2 GB and more are not supported");
-  if (!JpgTableCheck(bytes).isSafe()) failImageRead(path, "a damaged JPG file");
   StbMemory stbMemory(kMemoryOfHeaders);
   const auto* const memory = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
@@ -187,7 +122,8 @@ LoadedImage readStbImage(const std::string& path, std::string_view bytes) {
   if (!stbi_info_from_memory(memory, size, &width, &height, &channels))
     failImageRead(path, "this is no PNG, JPG, TGA, BMP or HDR image, or it is damaged");
   checkImageSize(path, width, height);
-  if (int64_t{width} * height > maxPixelsPerByte(bytes) * size)
+  const int64_t maxPixelsPerByte = isPng(bytes) ? kMaxPixelsPerByte : kMaxOtherPixelsPerByte;
+  if (int64_t{width} * height > maxPixelsPerByte * size)
     failImageRead(path, "the file is truncated, or its size is wrong");
   stbMemory.setLimit(memoryFor(width, height, bytes));
 

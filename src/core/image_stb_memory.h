@@ -8,8 +8,8 @@
 namespace lampyris {
 
 /// While it lives, stb's readers allocate from it on this thread, and only then may they be called.
-/// Its end frees what they did not, so that an exception may leave them. What they get is zero:
-/// they use Huffman tables that a damaged JPG file does not define.
+/// Its end frees what they did not, so that an exception may leave them. What they get is zero, so
+/// that a damaged file gives the same pixels every time.
 class StbMemory {
  public:
   /// stb is refused more than `limit` bytes at a time: it takes a file's word for what it

@@ -2,8 +2,7 @@
 /// Files for the tests of image reading and writing.
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
