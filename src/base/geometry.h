@@ -15,12 +15,13 @@ struct Primitive {
   const Shape* shape = nullptr;
   const Material* material = nullptr;         ///< null: an interface that rays pass
   const Light* light = nullptr;               ///< if it emits
-  LightId firstLight = kNoLight;              ///< + element; kNoLight: emits, but is not sampled
+  LightId firstLight = kNoLight;              ///< kNoLight: emits, but is not sampled
+  bool isOneLight = false;                    ///< whatever the element; else firstLight + element
   const FloatTexture* alpha = nullptr;        ///< rays pass where it is 0
   const FloatTexture* shadowAlpha = nullptr;  ///< the same for occlusion tests
   MediumInterface media;
   LightId lightId(uint32_t element) const {
-    return firstLight == kNoLight ? kNoLight : firstLight + element;
+    return firstLight == kNoLight || isOneLight ? firstLight : firstLight + element;
   }
 };
 

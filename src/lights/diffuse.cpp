@@ -40,26 +40,28 @@ float projectedShare(float cosTheta) {
   return cosTheta >= 0 ? (1 + cosTheta) / 2 : 1 / (2 * (1 - cosTheta));
 }
 
-/// All elements of a shape; for those of constant radiance nothing is kept.
+/// All elements of a shape, which stand for one light each unless the shape can be sampled as a
+/// whole. For those of constant radiance nothing is kept.
 class DiffuseAreaLight final : public Light, public HugePageObject {
  public:
   /// `varying` in place of `radiance` if it is not null.
   DiffuseAreaLight(const Shape& shape, const Rgb& radiance,
                    std::unique_ptr<const SurfaceEmission> varying, bool twoSided, int samples)
-      : shape_(shape),
+      : whole_(varying ? nullptr : shape.whole()),
+        surface_(whole_ ? *whole_ : shape),
         radiance_(radiance),
         varying_(std::move(varying)),
         twoSided_(twoSided),
         samples_(samples) {}
 
-  uint32_t elementCount() const override { return shape_.elementCount(); }
+  uint32_t elementCount() const override { return surface_.elementCount(); }
   bool isDelta() const override { return false; }
 
-  void prefetch() const override { __builtin_prefetch(&shape_); }
+  void prefetch() const override { __builtin_prefetch(&surface_); }
   std::optional<LightSample> sample(uint32_t element, const Vec3& from,
                                     const Vec2& u) const override {
     std::optional<LightSample> out;
-    const auto point = shape_.sampleSolidAngle(element, from, u);
+    const auto point = surface_.sampleSolidAngle(element, from, u);
     if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return out;
     const Vec3 d = point->p - from;
     const float distance = length(d);
@@ -79,7 +81,7 @@ class DiffuseAreaLight final : public Light, public HugePageObject {
     return out;
   }
   float pdfHit(uint32_t element, const Vec3& from, const SurfaceInteraction& hit) const override {
-    return shape_.pdfSolidAngle(element, from, hit.p, hit.n);
+    return surface_.pdfSolidAngle(element, from, hit.p, hit.n);
   }
   Rgb emitted(const SurfaceInteraction& at, const Vec3& w) const override {
     if (!emitsTowards(at.n, w)) return Rgb();
@@ -88,7 +90,7 @@ class DiffuseAreaLight final : public Light, public HugePageObject {
 
   std::optional<EmissionSample> sampleEmission(uint32_t element, const Vec2& u,
                                                const Vec2& v) const override {
-    const auto point = shape_.sampleArea(element, u);
+    const auto point = surface_.sampleArea(element, u);
     if (!point || !(point->pdf > 0) || !std::isfinite(point->pdf)) return std::nullopt;
     EmissionSample s;
     s.radiance = varying_ ? varying_->at(element, point->p, point->n) : radiance_;
@@ -107,22 +109,22 @@ class DiffuseAreaLight final : public Light, public HugePageObject {
     return s;
   }
   EmissionPdf emissionPdf(uint32_t element, const Vec3& n, const Vec3& w) const override {
-    return {shape_.pdfArea(element, n), pdfDirection(n, w)};
+    return {surface_.pdfArea(element, n), pdfDirection(n, w)};
   }
 
   Rgb power(uint32_t element) const override {
-    return meanRadiance(element) * (kPi * shape_.area(element) * (twoSided_ ? 2.f : 1.f));
+    return meanRadiance(element) * (kPi * surface_.area(element) * (twoSided_ ? 2.f : 1.f));
   }
   std::optional<LightBounds> bounds(uint32_t element) const override {
-    const Shape::NormalCone normals = shape_.normalCone(element);
+    const SampledSurface::NormalCone normals = surface_.normalCone(element);
     LightBounds b;
-    b.box = shape_.bounds(element);
+    b.box = surface_.bounds(element);
     b.axis = normals.axis;
     b.cosThetaO = normals.cosTheta;
     b.cosThetaE = 0;
     b.twoSided = twoSided_;
-    b.intensity =
-        meanRadiance(element).luminance() * shape_.area(element) * projectedShare(normals.cosTheta);
+    b.intensity = meanRadiance(element).luminance() * surface_.area(element) *
+                  projectedShare(normals.cosTheta);
     return b;
   }
   int samples() const override { return samples_; }
@@ -138,7 +140,8 @@ class DiffuseAreaLight final : public Light, public HugePageObject {
     return varying_ ? Rgb(varying_->meanLuminance(element)) : radiance_;
   }
 
-  const Shape& shape_;
+  std::unique_ptr<const SampledSurface> whole_;
+  const SampledSurface& surface_;
   Rgb radiance_;
   std::unique_ptr<const SurfaceEmission> varying_;
   bool twoSided_;

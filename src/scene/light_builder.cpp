@@ -98,8 +98,10 @@ class LightEntry {
       shape.light.reset();
       return;
     }
-    if (shape.object == kNone)
+    if (shape.object == kNone) {
       shape.primitive.firstLight = scene_.lightTable.add(shape.light.get());
+      shape.primitive.isOneLight = shape.light->elementCount() == 1;
+    }
     scene_.lights.push_back(std::move(shape.light));
   }
 

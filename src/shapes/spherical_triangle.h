@@ -8,6 +8,10 @@
 
 namespace lampyris {
 
+/// Flat surfaces whose two edges, squared and added, are less than this part of the squared
+/// distance of their centroid are sampled by area: see docs/shape-sampling.md.
+inline constexpr double kWide = 0.1;
+
 class SphericalTriangle {
  public:
   /// The corners in relation to the point, and |det(a, b, c)|, which callers know more precisely

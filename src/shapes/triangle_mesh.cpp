@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shapes/triangle_mesh.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/frame.h"
 #include "core/rejections.h"
 #include "core/sampling.h"
+#include "shapes/parallelogram.h"
 #include "shapes/spherical_triangle.h"
 
 namespace lampyris {
@@ -20,10 +22,6 @@ Vec3 unit(const DVec3& v) {
   if (square > 1e-30 && square < 1e30) return Vec3(v) * (1 / std::sqrt(static_cast<float>(square)));
   return square > 0 ? Vec3(v * (1 / std::sqrt(square))) : Vec3(0);
 }
-
-/// Triangles whose two edges, squared and added, are less than this part of the squared distance of
-/// their centroid are sampled by area: see docs/shape-sampling.md.
-constexpr double kWide = 0.1;
 
 Vec3 finiteOrZero(const Vec3& v) { return isFinite(v) ? v : Vec3(0); }
 
@@ -336,6 +334,30 @@ Shape::NormalCone TriangleMesh::normalCone(uint32_t element) const {
   if (d0 < 0 && d1 < 0 && d2 < 0) return {-n, 1};
   // Vertex normals on both sides: so is the interpolated one, and with it the geometric normal.
   return {n, -1};
+}
+
+/// Two triangles with one diagonal, the same front, and no vertex normals that bend the sides.
+std::unique_ptr<const SampledSurface> TriangleMesh::whole() const {
+  if (triangleCount() != 2) return nullptr;
+  const NormalCone front = normalCone(0), other = normalCone(1);
+  if (front.cosTheta != 1 || other.cosTheta != 1 || !(dot(front.axis, other.axis) > 0))
+    return nullptr;
+  const Corners c = corners(0), d = corners(1);
+  const std::array<Vec3, 3> first{c.p0, c.p1, c.p2}, second{d.p0, d.p1, d.p2};
+  const auto isIn = [](const std::array<Vec3, 3>& all, const Vec3& p) {
+    return std::find(all.begin(), all.end(), p) != all.end();
+  };
+  std::array<Vec3, 4> around;
+  size_t shared = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!isIn(second, first[i]))
+      around = {first[(i + 2) % 3], first[i], first[(i + 1) % 3], Vec3()};
+    shared += isIn(second, first[i]);
+  }
+  if (shared != 2) return nullptr;
+  for (const Vec3& p : second)
+    if (!isIn(first, p)) around[3] = p;
+  return Parallelogram::make(around, front.axis);
 }
 
 }  // namespace lampyris

@@ -47,6 +47,8 @@ class TriangleMesh final : public Shape {
   float pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
                       const Vec3& n) const override;
   NormalCone normalCone(uint32_t element) const override;
+  /// A parallelogram of two triangles.
+  std::unique_ptr<const SampledSurface> whole() const override;
 
   const TriangleMeshData& data() const { return data_; }  ///< positions: with the padding element
   size_t vertexCount() const { return vertexCount_; }

@@ -33,18 +33,18 @@ TEST_F(Lights, TellsWhatThereIs) {
   const CommandResult r = run("lights lights.pbrt --json");
   EXPECT_EQ(r.code, 0) << r.err;
   const auto json = nlohmann::json::parse(r.out);
-  EXPECT_EQ(json["lights"], 7);
+  EXPECT_EQ(json["lights"], 6);
   EXPECT_EQ(json["kinds"]["point"]["lights"], 2);
   EXPECT_EQ(json["kinds"]["spot"]["lights"], 1);
   EXPECT_EQ(json["kinds"]["area"]["objects"], 1);
-  EXPECT_EQ(json["kinds"]["area"]["lights"], 2);
+  EXPECT_EQ(json["kinds"]["area"]["lights"], 1);
   EXPECT_EQ(json["kinds"]["distant"]["lights"], 1);
   EXPECT_EQ(json["kinds"]["infinite"]["lights"], 1);
   EXPECT_NEAR(json["kinds"]["point"]["power"], 3 * 4 * M_PI, 1e-3);
-  EXPECT_EQ(json["tree"]["lights"], 5);
-  EXPECT_EQ(json["tree"]["nodes"], 9);
+  EXPECT_EQ(json["tree"]["lights"], 4);
+  EXPECT_EQ(json["tree"]["nodes"], 7);
   EXPECT_GT(json["flux"]["effectiveLights"], 1);
-  EXPECT_LT(json["flux"]["effectiveLights"], 5);
+  EXPECT_LT(json["flux"]["effectiveLights"], 4);
   EXPECT_NEAR(json["flux"]["most"], 8 * M_PI, 1e-3);
 }
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shapes/parallelogram.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/rejections.h"
+#include "core/sampling.h"
+#include "shapes/spherical_triangle.h"
+
+namespace lampyris {
+
+using DVec3 = glm::dvec3;
+
+std::unique_ptr<const Parallelogram> Parallelogram::make(const std::array<Vec3, 4>& corners,
+                                                         const Vec3& normal) {
+  std::unique_ptr<Parallelogram> q(new Parallelogram);
+  Vec3 largest(0);
+  for (const Vec3& p : corners) {
+    q->bounds_.extend(p);
+    largest = glm::max(largest, absComponents(p));
+  }
+  q->corner_ = corners[0];
+  q->e1_ = DVec3(corners[1]) - q->corner_;
+  q->e2_ = DVec3(corners[3]) - q->corner_;
+  q->areaNormal_ = glm::cross(q->e1_, q->e2_);
+  q->gap_ = absComponents(Vec3(q->corner_ + q->e1_ + q->e2_ - DVec3(corners[2])));
+  q->normal_ = normal;
+  q->area_ = static_cast<float>(glm::length(q->areaNormal_));
+
+  constexpr float kMostOfEdge = 1e-5f;
+  const auto edge = static_cast<float>(std::min(glm::length(q->e1_), glm::length(q->e2_)));
+  const float rounding = 4 * kMachineEpsilon * maxComponent(largest);
+  if (!(maxComponent(q->gap_) <= std::min(rounding, kMostOfEdge * edge))) return nullptr;
+  if (!(q->area_ >= std::numeric_limits<float>::min() && std::isfinite(q->area_))) return nullptr;
+  return q;
+}
+
+/// In relation to a point from which it is sampled.
+struct Parallelogram::View {
+  View(const Parallelogram& q, const Vec3& from)
+      : shape(q), a(q.corner_ - DVec3(from)), volume(std::abs(glm::dot(q.areaNormal_, a))) {}
+
+  bool isWide() const {
+    const DVec3 centre = a + 0.5 * (shape.e1_ + shape.e2_);
+    return glm::dot(shape.e1_, shape.e1_) + glm::dot(shape.e2_, shape.e2_) >
+           kWide * glm::dot(centre, centre);
+  }
+  // Both sweep around the corner, on from the diagonal.
+  SphericalTriangle first() const { return {a + shape.e1_, a, a + shape.e1_ + shape.e2_, volume}; }
+  SphericalTriangle second() const { return {a + shape.e1_ + shape.e2_, a, a + shape.e2_, volume}; }
+  /// By solid angle at distance `d`, of points that are uniform by area; as for triangles.
+  float uniformPdf(float d) const {
+    const double distance = d;
+    return static_cast<float>(distance * distance * distance / volume);
+  }
+
+  const Parallelogram& shape;
+  DVec3 a;
+  double volume;
+};
+
+ShapeSample Parallelogram::at(const Vec2& st) const {
+  const Vec3 e1(e1_), e2(e2_);
+  ShapeSample out;
+  out.p = Vec3(corner_) + (st.x * e1 + st.y * e2);
+  out.pError = roundingBound(2) * absComponents(out.p) + gap_ +
+               roundingBound(7) * (st.x * absComponents(e1) + st.y * absComponents(e2));
+  out.n = normal_;
+  return out;
+}
+
+std::optional<ShapeSample> Parallelogram::sampleArea(uint32_t, const Vec2& u) const {
+  ShapeSample s = at(u);
+  s.pdf = 1 / area_;
+  return s;
+}
+
+std::optional<ShapeSample> Parallelogram::sampleSolidAngle(uint32_t, const Vec3& from,
+                                                           const Vec2& u) const {
+  std::optional<ShapeSample> out;
+  const View view(*this, from);
+  if (!(view.volume > 0)) return out;  // seen edge on
+  if (view.isWide()) {
+    const SphericalTriangle first = view.first(), second = view.second();
+    const float whole = first.solidAngle() + second.solidAngle();
+    const float share = first.solidAngle() / whole;
+    if (u.x < share) {
+      const Vec3 b = first.sample({std::min(u.x / share, kOneMinusEpsilon), u.y});
+      out = at({b.x + b.z, b.z});
+    } else if (whole > 0) {
+      const Vec3 b = second.sample({std::min((u.x - share) / (1 - share), kOneMinusEpsilon), u.y});
+      out = at({b.x, b.x + b.z});
+    } else {
+      out.emplace();
+    }
+    out->pdf = 1 / whole;
+  } else {
+    out = at(u);
+    out->pdf = view.uniformPdf(distance(out->p, from));
+  }
+  if (out->pdf > 0 && std::isfinite(out->pdf)) return out;
+  countRejection(Rejection::LightDensity);
+  return std::nullopt;
+}
+
+float Parallelogram::pdfSolidAngle(uint32_t, const Vec3& from, const Vec3& p, const Vec3&) const {
+  const View view(*this, from);
+  const float pdf = view.isWide() ? 1 / (view.first().solidAngle() + view.second().solidAngle())
+                                  : view.uniformPdf(distance(p, from));
+  return std::isfinite(pdf) ? pdf : 0;
+}
+
+}  // namespace lampyris
