@@ -8,10 +8,8 @@ namespace {
 /// A cell that has seen this many samples, in terms of samples of equal weight, is divided: its
 /// parts still see enough to fit lobes to.
 constexpr double kDivideAt = 150;
-/// Photons that a cell is divided at, and that a part gets at least; the number of samples that
-/// they count for in the end.
-constexpr size_t kDivideSeedAt = 300, kLeastSeed = 30;
-constexpr double kSeedWorth = 32;
+/// Photons that a cell is divided at, and that a part gets at least.
+constexpr size_t kDivideSeedAt = 100, kLeastSeed = 15;
 /// A surface passes about four of the eight parts.
 constexpr double kPartOfParent = 0.25;
 
@@ -81,7 +79,6 @@ void CellTree::seed(std::vector<GuideSample>& photons, size_t quota) {
       inserted_ += cell.learn(s, inserted_ < quota);
     }
     cell.endPass();
-    if (cell.samples() > kSeedWorth) cell.fade(kSeedWorth / cell.samples());
     if (at.photons.size() < kDivideSeedAt || at.depth >= kDeepest) continue;
     std::array<SeededCell, 8> parts;
     for (const GuideSample& s : at.photons) {

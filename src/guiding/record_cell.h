@@ -22,14 +22,10 @@ class RecordCell {
 
   /// Counts a sample. True if it made a record; `mayInsert` false: it must not.
   bool learn(const GuideSample& sample, bool mayInsert);
-  /// What was counted counts so much less.
-  void fade(double factor);
   /// Fits, and drops what does not help.
   void endPass();
 
   const std::vector<SignificanceRecord>& records() const { return records_; }
-  /// S: how many samples were seen, the older ones counted less.
-  double samples() const { return s_; }
   /// How many samples of equal weight would tell as much of the radiance.
   double effectiveSamples() const { return i2_ > 0 ? i_ / i2_ * i_ : 0; }
   /// Of the surface that the latest sample was on; zero in a medium.
@@ -50,6 +46,8 @@ class RecordCell {
   void restore(ByteReader& in);
 
  private:
+  /// What was counted counts so much less.
+  void fade(double factor);
   void countGain(const GuideSample& sample, float guidePdf);
   void fit();
   void mergeAlike();
