@@ -21,7 +21,8 @@ constexpr uint32_t lobeExponent(int level) {
   if (level == 0) return 1;
   return level % 2 ? 1u << (level + 1) / 2 : 3u << (level - 2) / 2;
 }
-/// How often the power is squared, after the first one (level 0), two or three factors.
+/// A power is a product of one (level 0), two or three factors, squared as often as the next says.
+constexpr int lobeFactors(int level) { return level == 0 ? 1 : level % 2 ? 2 : 3; }
 constexpr int lobeSquarings(int level) { return level == 0 ? 0 : (level - 1) / 2; }
 /// The level of the least exponent ≥ e; the last one for larger e, the first one for NaN.
 int lobeLevel(float e);

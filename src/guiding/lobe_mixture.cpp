@@ -2,8 +2,21 @@
 #include "guiding/lobe_mixture.h"
 
 #include <algorithm>
+#include <experimental/simd>
 
 namespace lampyris {
+
+namespace {
+
+namespace stdx = std::experimental;
+constexpr size_t kLanes = 4;
+using Floats = stdx::simd<float, stdx::simd_abi::deduce_t<float, kLanes>>;
+using Doubles = stdx::rebind_simd_t<double, Floats>;
+
+Floats floats(const float* from) { return Floats(from, stdx::element_aligned); }
+Doubles doubles(const float* from) { return stdx::static_simd_cast<Doubles>(floats(from)); }
+
+}  // namespace
 
 bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scattering) {
   n_ = point.n;
@@ -23,7 +36,7 @@ void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, const Vec3& n
                              const DirectionWeight& at) {
   total = 0;
   count = 0;
-  squarings = 0;
+  mostSquarings = 0;
   // Equal but for rounding: V is known.
   const bool samePlane = lengthSquared(n - cell.n) < 1e-13f;
   for (const SignificanceCache::Lobe& r : cell.lobes) {
@@ -34,15 +47,15 @@ void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, const Vec3& n
     total += w;
     x[count] = r.axis.x, y[count] = r.axis.y, z[count] = r.axis.z;
     level[count] = r.level;
-    squarings = std::max(squarings, lobeSquarings(r.level));
+    factors[count] = static_cast<float>(lobeFactors(r.level));
+    squarings[count] = static_cast<float>(lobeSquarings(r.level));
+    mostSquarings = std::max(mostSquarings, squarings[count]);
     weight[count] = w;
     normalisation[count] = w * (samePlane ? r.inverse : inverseClippedLobe(r.level, tilt));
     ++count;
   }
-  for (size_t i = count; i % kLanes != 0; ++i) {
-    x[i] = y[i] = z[i] = normalisation[i] = 0;
-    level[i] = 0;
-  }
+  for (size_t i = count; i % kLanes != 0; ++i)
+    x[i] = y[i] = z[i] = normalisation[i] = factors[i] = squarings[i] = 0;
 }
 
 void LobeMixture::Side::scale(float factor) {
@@ -54,26 +67,21 @@ void LobeMixture::Side::scale(float factor) {
 
 /// As a sum over lobePower(), a few lobes at a time.
 float LobeMixture::Side::pdf(const Vec3& wi) const {
-  std::array<double, kLanes> sum{};
-  for (size_t first = 0; first < count; first += kLanes) {
-    std::array<double, kLanes> power;
-    std::array<int32_t, kLanes> left;
-    for (size_t k = 0; k < kLanes; ++k) {
-      const size_t i = first + k;
-      const float dx = wi.x - x[i], dy = wi.y - y[i], dz = wi.z - z[i];
-      const double c = std::max(0., 1 - 0.5 * static_cast<double>(dx * dx + dy * dy + dz * dz));
-      const double square = c * c;
-      left[k] = lobeSquarings(level[i]);
-      power[k] = level[i] == 0 ? c : level[i] % 2 ? square : square * c;
-    }
-    for (int done = 0; done < squarings; ++done)
-      for (size_t k = 0; k < kLanes; ++k) power[k] *= done < left[k] ? power[k] : 1;
-    for (size_t k = 0; k < kLanes; ++k)
-      sum[k] += static_cast<double>(normalisation[first + k]) * power[k];
+  Doubles sum = 0;
+  for (size_t i = 0; i < count; i += kLanes) {
+    const Floats dx = wi.x - floats(&x[i]), dy = wi.y - floats(&y[i]), dz = wi.z - floats(&z[i]);
+    const Doubles chord2 = stdx::static_simd_cast<Doubles>(dx * dx + dy * dy + dz * dz);
+    Doubles c = 1 - 0.5 * chord2;
+    stdx::where(c < 0, c) = 0;
+    const Doubles first = doubles(&factors[i]), left = doubles(&squarings[i]);
+    Doubles power = c;
+    stdx::where(first > 1.5, power) *= c;
+    stdx::where(first > 2.5, power) *= c;
+    for (double done = 0; done < static_cast<double>(mostSquarings); ++done)
+      stdx::where(left > done, power) *= Doubles(power);
+    sum += doubles(&normalisation[i]) * power;
   }
-  double all = 0;
-  for (const double s : sum) all += s;
-  return static_cast<float>(all);
+  return static_cast<float>(stdx::reduce(sum));
 }
 
 Vec3 LobeMixture::sample(float u, const Vec2& v, NumberSequence& more) const {
@@ -84,8 +92,7 @@ Vec3 LobeMixture::sample(float u, const Vec2& v, NumberSequence& more) const {
     return n == Vec3(0) ? sampleLobe(side.level[i], side.axis(i), v)
                         : sampleClippedLobe(side.level[i], side.axis(i), n, v, more);
   };
-  float front = 0;
-  for (size_t i = 0; i < front_.count; ++i) front += front_.weight[i];
+  const float front = front_.total / scattered();
   if (back_.count == 0 || left < front) return drawn(front_, n_);
   left -= front;
   return drawn(back_, -n_);

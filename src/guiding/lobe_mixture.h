@@ -23,13 +23,13 @@ class LobeMixture final : public LocalGuide {
   /// instructions.
   struct Side {
     static constexpr size_t kMost = SignificanceCache::kMostNearest;
-    /// Loops run over whole vectors; what stands behind the last lobe has no weight.
-    static constexpr size_t kLanes = 8;
 
-    float total = 0;  ///< sum of the weights
+    float total = 0;  ///< sum of the weights, before scale()
     size_t count = 0;
-    int squarings = 0;  ///< the most of any lobe
+    float mostSquarings = 0;
+    // Loops run over whole vectors; what stands behind the last lobe has no weight.
     alignas(64) std::array<float, kMost> x, y, z;
+    std::array<float, kMost> factors, squarings;     ///< of the power, see lobePower()
     std::array<float, kMost> weight, normalisation;  ///< share in the mixture; the same / V
     std::array<int32_t, kMost> level;
 

@@ -53,8 +53,10 @@ class DirectionMixture {
   DirectionMixture(const ScatteringPoint& at, const LocalGuide* guide, float ownShare)
       : at_(at), guide_(guide), ownShare_(guide ? ownShare : 1) {}
 
-  /// Density by solid angle of draws that are not specular.
-  float pdf(const Vec3& wi) const { return mixed(at_.pdf(wi), guidePdf(wi)); }
+  /// The density that light sampling is weighed against: of the point's own draws among all. To
+  /// leave out the guide's share is as unbiased, since both techniques weigh so, and saves its
+  /// evaluation; guides are for light that light sampling does not find.
+  float weighingPdf(float ownPdf) const { return ownShare_ * ownPdf; }
   /// None where nothing is scattered.
   std::optional<DrawnDirection> sample(float uc, const Vec2& u, NumberSequence& more) const;
 

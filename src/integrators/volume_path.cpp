@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path tracing with media (pbrt-v3's "volpath" in expectation) and, where there is a guide, with
 // directions from the mixture of the BSDF or phase function and the guide. Light sampling and the
-// path's next ray are joined by multiple importance sampling with that mixture's density; the next
+// path's next ray are joined by multiple importance sampling with the mixture's own part; the next
 // ray serves as the other half, so no ray is traced for it alone. Cost a vertex: one shadow ray,
 // one ray, and a look-up of the guide.
 #include "integrators/volume_path.h"
@@ -323,7 +323,7 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   path.below = path.entersBelow && d->isTransmission;
   if (!path.below) path.etaScale *= d->etaScale;
   path.weighed = !d->isSpecular;
-  path.pdf = d->pdf;
+  path.pdf = mixture.weighingPdf(d->ownPdf);
   if (path.memory && !specular) {
     ++path.memory->drawn;
     path.memory->guided += guide != nullptr;
@@ -370,7 +370,8 @@ Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
   const Rgb share =
       transmittance(scene_, ray, mediumTowards(path, wi), path.numbers, path.state.rays);
   if (share.isBlack()) return Rgb();
-  const float weight = DirectLighting::lightWeight(*drawn, drawn->isDelta ? 0 : mixture.pdf(wi));
+  const float pdf = drawn->isDelta ? 0 : mixture.weighingPdf(point.pdf(wi));
+  const float weight = DirectLighting::lightWeight(*drawn, pdf);
   return path.throughput * drawn->light.radiance * scattered * share * (weight / drawn->density);
 }
 
