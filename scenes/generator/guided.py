@@ -59,17 +59,20 @@ def office():
 
 
 def caustic():
-    """Light through a glass sphere onto a floor that is nearly a mirror."""
-    out = ['Material "substrate" "rgb Kd" [.05 .05 .05] "rgb Ks" [.95 .95 .95] "float uroughness" .12 '
-           '"float vroughness" .12\n', quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)),
-           matte(.6, .6, .6), quad((-6, 4, 0), (6, 4, 0), (6, 4, 6), (-6, 4, 6)),
+    """Light through a glass sphere onto a highly glossy floor, whose sampling is specular for 95 %."""
+    # As a Ward BRDF with a specular weight of 0.95: lobes are drawn by their albedo.
+    out = ['MakeNamedMaterial "gloss" "string type" "metal" "rgb eta" [.14 .14 .14] "rgb k" [4.1 4.1 4.1] '
+           '"float roughness" .2 "bool remaproughness" "false"\n'
+           'MakeNamedMaterial "base" "string type" "matte" "rgb Kd" [1 1 1]\n'
+           'Material "mix" "string namedmaterial1" "gloss" "string namedmaterial2" "base" "rgb amount" [.95 .95 .95]\n',
+           quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)),
            'Material "glass" "float eta" 1.5\n', sphere(0, .2, 1.1, .8),
            light(120, 115, 100, sphere(1.6, -.6, 4.5, .3))]
     return "LookAt 0 -5.5 3.2  0 .3 .5  0 0 1\n", 38, 8, "path", "".join(out)
 
 
 def medium():
-    """A glass sphere in a Cornell box full of a scattering medium, with a small lamp."""
+    """A glass sphere in a Cornell box full of a scattering medium; a small lamp above, out of sight."""
     out = ['MakeNamedMedium "mist" "string type" "homogeneous" "rgb sigma_a" [.02 .02 .02] "rgb sigma_s" [.3 .3 .3]\n'
            'MediumInterface "mist" "mist"\n']
     out += [matte(.7, .7, .68), quad((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)),
@@ -77,10 +80,10 @@ def medium():
             quad((-1, -1, -1), (-1, -1, 1), (1, -1, 1), (1, -1, -1)),
             matte(.6, .08, .06), quad((-1, -1, -1), (-1, 1, -1), (-1, 1, 1), (-1, -1, 1)),
             matte(.1, .45, .12), quad((1, -1, -1), (1, -1, 1), (1, 1, 1), (1, 1, -1)),
-            'AttributeBegin\nMediumInterface "" "mist"\nMaterial "glass" "float eta" 1.5\n' + sphere(0, .2, .05, .4) +
+            'AttributeBegin\nMediumInterface "" "mist"\nMaterial "glass" "float eta" 1.5\n' + sphere(0, .2, 0, .4) +
             "AttributeEnd\n",
-            light(90, 85, 70, quad((-.12, .08, .98), (-.12, .32, .98), (.12, .32, .98), (.12, .08, .98)))]
-    return "LookAt 0 -.97 0  0 1 -.1  0 0 1\n", 88, 12, "volpath", "".join(out)
+            light(360, 340, 280, quad((-.06, .14, .98), (-.06, .26, .98), (.06, .26, .98), (.06, .14, .98)))]
+    return "LookAt 0 -.97 0  0 1 -.35  0 0 1\n", 70, 12, "volpath", "".join(out)
 
 
 SCENES = {"hall": hall, "office": office, "caustic": caustic, "medium": medium}
