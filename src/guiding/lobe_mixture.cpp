@@ -49,7 +49,7 @@ void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, const Vec3& n
     level[count] = r.level;
     factors[count] = static_cast<float>(lobeFactors(r.level));
     squarings[count] = static_cast<float>(lobeSquarings(r.level));
-    mostSquarings = std::max(mostSquarings, squarings[count]);
+    mostSquarings = std::max(mostSquarings, lobeSquarings(r.level));
     weight[count] = w;
     normalisation[count] = w * (samePlane ? r.inverse : inverseClippedLobe(r.level, tilt));
     ++count;
@@ -77,8 +77,8 @@ float LobeMixture::Side::pdf(const Vec3& wi) const {
     Doubles power = c;
     stdx::where(first > 1.5, power) *= c;
     stdx::where(first > 2.5, power) *= c;
-    for (double done = 0; done < static_cast<double>(mostSquarings); ++done)
-      stdx::where(left > done, power) *= Doubles(power);
+    for (int done = 0; done < mostSquarings; ++done)
+      stdx::where(left > static_cast<double>(done), power) *= Doubles(power);
     sum += doubles(&normalisation[i]) * power;
   }
   return static_cast<float>(stdx::reduce(sum));

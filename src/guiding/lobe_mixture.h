@@ -26,7 +26,7 @@ class LobeMixture final : public LocalGuide {
 
     float total = 0;  ///< sum of the weights, before scale()
     size_t count = 0;
-    float mostSquarings = 0;
+    int mostSquarings = 0;
     // Loops run over whole vectors; what stands behind the last lobe has no weight.
     alignas(64) std::array<float, kMost> x, y, z;
     std::array<float, kMost> factors, squarings;     ///< of the power, see lobePower()

@@ -57,7 +57,8 @@ struct Scene {
     std::cout << fmt::format("{}: {:.1f} MB estimated, {:.1f} MB taken, factor {:.2f}\n", name,
                              estimate / 1e6, taken / 1e6, estimate / taken);
     EXPECT_GT(estimate / taken, 0.6) << name;
-    EXPECT_LT(estimate / taken, 1.8) << name;
+    // How much is in use at a time while Embree builds varies: by a factor of two for a soup.
+    EXPECT_LT(estimate / taken, 3) << name;
   }
 };
 
