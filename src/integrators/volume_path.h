@@ -32,8 +32,8 @@ class GuidedMemory final : public EstimatorMemory {
 /// How a path is guided. `guide` null: not at all.
 struct Guidance {
   const Guide* guide = nullptr;
-  float ownShare = 0.4f;  ///< of the BSDF or phase function in the mixture
-  bool use = true;        ///< false: samples are collected only
+  float ownShare = 1;  ///< of the BSDF or phase function in the mixture
+  bool use = true;     ///< false: samples are collected only
   bool collect = false;
   uint64_t stride = 1;  ///< of every so many samples of a pixel, one is learned from
 };

@@ -47,18 +47,25 @@ struct Scene {
 
   void expectNear(const char* name) {
     const double estimate = estimateEmbreeMemory(description);
-    malloc_trim(0);
-    std::ofstream reset("/proc/self/clear_refs");
-    reset << 5 << std::flush;  // the peak begins anew
-    const double before = usedMemory();
-    if (!reset || peakMemory() > 1.1 * before) GTEST_SKIP() << "the peak cannot be measured";
-    const auto geometry = makeEmbreeGeometry(std::move(description));
-    const double taken = peakMemory() - before;
-    std::cout << fmt::format("{}: {:.1f} MB estimated, {:.1f} MB taken, factor {:.2f}\n", name,
-                             estimate / 1e6, taken / 1e6, estimate / taken);
-    EXPECT_GT(estimate / taken, 0.6) << name;
-    // How much is in use at a time while Embree builds varies: by a factor of two for a soup.
-    EXPECT_LT(estimate / taken, 3) << name;
+    constexpr double kLeast = 0.6, kMost = 1.8;
+    // How much is in use at a time while Embree builds varies, by a factor of two for a soup: the
+    // estimate is for the largest.
+    double factor = kInfinity;
+    for (int i = 0; i < 3 && !(factor < kMost); ++i) {
+      GeometryDescription copy = description;  // is not to count
+      malloc_trim(0);
+      std::ofstream reset("/proc/self/clear_refs");
+      reset << 5 << std::flush;  // the peak begins anew
+      const double before = usedMemory();
+      if (!reset || peakMemory() > 1.1 * before) GTEST_SKIP() << "the peak cannot be measured";
+      const auto geometry = makeEmbreeGeometry(std::move(copy));
+      const double taken = peakMemory() - before;
+      factor = estimate / taken;
+      std::cout << fmt::format("{}: {:.1f} MB estimated, {:.1f} MB taken, factor {:.2f}\n", name,
+                               estimate / 1e6, taken / 1e6, factor);
+    }
+    EXPECT_GT(factor, kLeast) << name;
+    EXPECT_LT(factor, kMost) << name;
   }
 };
 
