@@ -185,6 +185,9 @@ bool TriangleMesh::setParameters(const Corners& c, const Vec3& b, const DVec3& a
 void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray,
                            SurfaceDetail detail, SurfaceInteraction& out) const {
   const Corners c = corners(element);
+  // All that lies elsewhere at once: waiting for one after the other takes as long as the rest.
+  if (!data_.normals.empty())
+    for (size_t i = 0; i < 3; ++i) __builtin_prefetch(&data_.normals[c.index[i]]);
   const Vec3 b(1 - hit.uv.x - hit.uv.y, hit.uv.x, hit.uv.y);
   out.p = c.point(b);
   out.pError = c.pointError(b);
