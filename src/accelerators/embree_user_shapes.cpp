@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/bitfield.hpp>
 
 namespace lampyris::embree {
 
@@ -24,21 +25,47 @@ bool misses(const RTCRay& ray, const Ball& ball) {
 }  // namespace
 
 UserShapes::UserShapes(const std::vector<Primitive>& primitives) : primitives_(primitives) {
+  std::vector<Vec3> centres;
   for (uint32_t i = 0; i < primitives.size(); ++i) {
     const Shape& shape = *primitives[i].shape;
     if (shape.triangles().triangleCount > 0) continue;
-    for (uint32_t element = 0; element < shape.elementCount(); ++element)
-      if (!shape.bounds(element).empty()) add(i, element);
+    for (uint32_t element = 0; element < shape.elementCount(); ++element) {
+      const Bounds3 b = shape.bounds(element);
+      if (b.empty()) continue;
+      centres.push_back(b.centroid());
+      elements_.push_back({i, element});
+    }
   }
+  sortInSpace(centres);
+  findBalls();
 }
 
-void UserShapes::add(uint32_t primitive, uint32_t element) {
-  const Ball ball = primitives_[primitive].shape->ball(element);
-  if (!balls_.empty() || std::isfinite(ball.radius)) {
-    balls_.resize(elements_.size(), Ball{});
-    balls_.push_back(ball);
+void UserShapes::sortInSpace(const std::vector<Vec3>& centres) {
+  Bounds3 all;
+  for (const Vec3& p : centres) all.extend(p);
+  constexpr float kCells = 1 << 20;  // an axis; three times that many bits fit into a code
+  const float size = maxComponent(all.extent());
+  const float scale = size > 0 ? kCells / size : 0;
+
+  std::vector<std::pair<uint64_t, Element>> order(centres.size());
+  for (size_t i = 0; i < centres.size(); ++i) {
+    // Scaled first: a difference may be infinite.
+    const Vec3 at = centres[i] * scale - all.min * scale;
+    const glm::uvec3 cell(glm::clamp(at, 0.f, kCells));
+    order[i] = {glm::bitfieldInterleave(cell.x, cell.y, cell.z), elements_[i]};
   }
-  elements_.push_back({primitive, element});
+  std::sort(order.begin(), order.end());
+  for (size_t i = 0; i < order.size(); ++i) elements_[i] = order[i].second;
+}
+
+void UserShapes::findBalls() {
+  balls_.reserve(elements_.size());
+  bool any = false;
+  for (const Element& e : elements_) {
+    balls_.push_back(primitive(e).shape->ball(e.element));
+    any = any || std::isfinite(balls_.back().radius);
+  }
+  if (!any) balls_ = {};
 }
 
 bool UserShapes::passesBy(const RTCRay& ray, uint32_t index) const {

@@ -17,6 +17,7 @@ class UserShapes {
  public:
   struct Element {
     uint32_t primitive, element;
+    auto operator<=>(const Element&) const = default;
   };
   /// All shapes of `primitives` without triangles; they must stay where they are.
   explicit UserShapes(const std::vector<Primitive>& primitives);
@@ -30,7 +31,9 @@ class UserShapes {
   bool passesBy(const RTCRay& ray, uint32_t index) const;
 
  private:
-  void add(uint32_t primitive, uint32_t element);
+  /// Along a Z-order curve, so that what rays meet together lies together.
+  void sortInSpace(const std::vector<Vec3>& centres);
+  void findBalls();
 
   const std::vector<Primitive>& primitives_;
   std::vector<Element> elements_;

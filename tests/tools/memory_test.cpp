@@ -61,7 +61,7 @@ TEST_F(Memory, WhatIsTooLargeIsNamed) {
   expectTooLarge(
       errorOf("other.pbrt"),
       "other.pbrt:11:1: error: the ray tracing structure of 0 triangles, 8192000 elements "
-      "of other shapes (of this shape: 8192000) and 0 instances needs about 1.1 GiB");
+      "of other shapes (of this shape: 8192000) and 0 instances needs about 1.3 GiB");
 }
 
 TEST_F(Memory, TheEstimateIsNearThePeak) {
