@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/huge_page_object.h"
 
-#include <sys/mman.h>
-
 #include <atomic>
 #include <cassert>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
 
+#include "core/huge_pages.h"
+
 namespace lampyris {
 
 namespace {
 
-constexpr size_t kPageBytes = size_t{2} << 20;
 constexpr size_t kCacheLine = 64;
 constexpr size_t kMostBytes = size_t{64} << 10;
 
@@ -23,13 +22,13 @@ struct alignas(kCacheLine) Page {
   std::atomic<uint32_t> users{1};  ///< its objects, and the thread that fills it
 
   static Page* make() {
-    void* const memory = std::aligned_alloc(kPageBytes, kPageBytes);
+    void* const memory = std::aligned_alloc(kHugePage, kHugePage);
     if (!memory) throw std::bad_alloc();
-    madvise(memory, kPageBytes, MADV_HUGEPAGE);  // only a hint
+    madvise(memory, kHugePage, MADV_HUGEPAGE);  // only a hint
     return ::new (memory) Page;
   }
   static Page* of(void* object) {
-    return reinterpret_cast<Page*>(reinterpret_cast<uintptr_t>(object) & ~(kPageBytes - 1));
+    return reinterpret_cast<Page*>(reinterpret_cast<uintptr_t>(object) & ~(kHugePage - 1));
   }
   void leave() {
     if (users.fetch_sub(1, std::memory_order_acq_rel) == 1) std::free(this);
@@ -48,7 +47,7 @@ class Filler {
     // No more cache lines than it must.
     if (used_ % kCacheLine + size > kCacheLine)
       used_ = (used_ + kCacheLine - 1) & ~(kCacheLine - 1);
-    if (used_ + size > kPageBytes) {
+    if (used_ + size > kHugePage) {
       Page* const next = Page::make();
       if (page_) page_->leave();
       page_ = next;
@@ -62,7 +61,7 @@ class Filler {
 
  private:
   Page* page_ = nullptr;
-  size_t used_ = kPageBytes;
+  size_t used_ = kHugePage;
 };
 thread_local Filler filler;
 

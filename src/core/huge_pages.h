@@ -12,6 +12,13 @@
 
 namespace lampyris {
 
+inline constexpr size_t kHugePage = size_t{2} << 20;
+
+/// Moves what this process has in memory by now, whoever allocated it, into such pages where it
+/// fills one: the ray tracer's tree, meshes. Takes as long as copying it. Does nothing on Linux
+/// before 6.1.
+void gatherIntoHugePages();
+
 /// An allocator for containers. Only a hint: without such pages it is memory like any other.
 /// Elements that a container makes without a value are default-initialised: numbers are not set to
 /// zero, so that the thread that fills them is the first to touch them.
@@ -26,8 +33,8 @@ struct HugePageAllocator {
 
   T* allocate(size_t count) {
     const size_t bytes = count * sizeof(T);
-    const bool large = bytes >= 2 * kPage;
-    const size_t alignment = large ? kPage : std::max(alignof(T), sizeof(void*));
+    const bool large = bytes >= 2 * kHugePage;
+    const size_t alignment = large ? kHugePage : std::max(alignof(T), sizeof(void*));
     void* const p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
     if (!p) throw std::bad_alloc();
     if (large) madvise(p, bytes, MADV_HUGEPAGE);
@@ -43,9 +50,6 @@ struct HugePageAllocator {
   void construct(U* p, Args&&... args) {
     ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }
-
- private:
-  static constexpr size_t kPage = size_t{2} << 20;
 };
 
 template <class T>
