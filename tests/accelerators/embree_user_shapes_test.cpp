@@ -41,8 +41,8 @@ TEST(EmbreeUserShapes, NeighboursInSpaceAreNeighboursInMemory) {
   std::sort(order.begin(), order.end(),
             [](uint32_t a, uint32_t b) { return uniform(2, a, 0) < uniform(2, b, 0); });
   const auto place = [](uint32_t i) {
-    return Vec3(static_cast<float>(i % 16), static_cast<float>(i / 16 % 16),
-                static_cast<float>(i / 256));
+    const uint32_t y = i / 16 % 16, z = i / 256;
+    return Vec3(static_cast<float>(i % 16), static_cast<float>(y), static_cast<float>(z));
   };
   for (const uint32_t i : order) scene.add(place(i));
   const embree::UserShapes shapes(scene.primitives);
