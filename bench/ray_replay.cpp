@@ -13,6 +13,7 @@
 #include <string>
 
 #include "accelerators/embree_geometry.h"
+#include "core/huge_pages.h"
 #include "core/parallel.h"
 #include "scene/builder.h"
 
@@ -101,6 +102,7 @@ int run(int argc, char** argv) {
   Diagnostics diagnostics(files, [](const std::string& text) { fmt::print("{}\n", text); });
   Statistics statistics;
   const auto job = loadScene(path, options, files, diagnostics, statistics);
+  gatherIntoHugePages();
   uint64_t sample = 0;
   const auto renderOneSample = [&] {
     RenderContext context{job->scene, *job->camera, *job->sampler, *job->film, {}, statistics};

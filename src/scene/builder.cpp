@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "cameras/registry.h"
-#include "core/huge_pages.h"
 #include "film/film_registry.h"
 #include "film/filter_registry.h"
 #include "integrators/registry.h"
@@ -32,21 +31,17 @@ double seconds() {
 std::unique_ptr<RenderJob> load(uint16_t file, const std::string& folder,
                                 const BuildOptions& options, SourceFiles& files,
                                 Diagnostics& diagnostics, Statistics& statistics) {
-  auto job = std::make_unique<RenderJob>();
-  double parsed;
-  {
-    const double start = seconds();
-    const Description description = parseScene(file, folder, files, diagnostics);
-    parsed = seconds();
-    statistics.set("scene", "parse seconds", parsed - start);
+  const double start = seconds();
+  const Description description = parseScene(file, folder, files, diagnostics);
+  const double parsed = seconds();
+  statistics.set("scene", "parse seconds", parsed - start);
 
-    BuildState state(description, options, folder, files, diagnostics, statistics, *job);
-    buildView(state);
-    const IntegratorChoice integrator = chooseIntegrator(state);
-    buildWorld(state);
-    buildIntegrator(state, integrator);
-  }
-  gatherIntoHugePages();
+  auto job = std::make_unique<RenderJob>();
+  BuildState state(description, options, folder, files, diagnostics, statistics, *job);
+  buildView(state);
+  const IntegratorChoice integrator = chooseIntegrator(state);
+  buildWorld(state);
+  buildIntegrator(state, integrator);
   statistics.set("scene", "build seconds", seconds() - parsed);
   return job;
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "core/huge_pages.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "tools/commands.h"
@@ -242,6 +243,7 @@ void RenderSession::checkIntegrator() const {
 bool RenderSession::run() {
   const auto start = std::chrono::steady_clock::now();
   loadJob();
+  gatherIntoHugePages();
   checkIntegrator();
   report_.scene = scene_;
   report_.loadSeconds = secondsSince(start);
