@@ -57,15 +57,16 @@ class Sphere final : public Quadric, public HugePageObject {
   }
   DVec2 parametersOf(const DVec3& p) const { return {azimuth(p.x, p.y) / phiMax_, vOf(p.z)}; }
   std::optional<DVec2> accept(const DVec3& p) const;
-  /// In which the sphere is seen from a point; none where it is not sampled by its cone: partial,
+  /// In which the sphere is seen from a point. Empty where it is not sampled by its cone: partial,
   /// under a map that makes it no sphere, or from inside.
   struct Cone {
     DVec3 toCentre;
-    double distance2, sin2, cos;  ///< of the half-angle
+    double distance2, sin2, cos;  ///< of the half-angle; sin2 0: empty
+    bool empty() const { return !(sin2 > 0); }
     double oneMinusCos() const { return sin2 / (1 + cos); }
     float pdf() const { return uniformConePdf(static_cast<float>(oneMinusCos())); }
   };
-  std::optional<Cone> coneFrom(const Vec3& from) const;
+  Cone coneFrom(const Vec3& from) const;
   std::optional<ShapeSample> sampleCone(const Cone& cone, const Vec2& u) const;
 
   double radius_, zMin_, zMax_, phiMax_, thetaMin_, thetaMax_;
@@ -151,22 +152,21 @@ std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) cons
   return std::nullopt;
 }
 
-std::optional<Sphere::Cone> Sphere::coneFrom(const Vec3& from) const {
-  std::optional<Cone> cone;
+/// Not an optional: that would be copied through memory in pieces of another size than it is
+/// written in, for which the processor waits.
+inline Sphere::Cone Sphere::coneFrom(const Vec3& from) const {
   const double r = ballRadius();
-  if (!(r > 0)) return cone;
   const DVec3 toCentre = worldOrigin() - DVec3(from);
   const double d2 = glm::dot(toCentre, toCentre);
-  if (!(d2 > r * r) || !std::isfinite(d2)) return cone;
-  const double sin2 = r * r / d2;
-  cone.emplace(Cone{toCentre, d2, sin2, safeSqrt(1 - sin2)});
-  return cone;
+  const bool outside = r > 0 && d2 > r * r && std::isfinite(d2);
+  const double sin2 = outside ? r * r / d2 : 0;
+  return {toCentre, d2, sin2, safeSqrt(1 - sin2)};
 }
 
 std::optional<ShapeSample> Sphere::sampleSolidAngle(uint32_t element, const Vec3& from,
                                                     const Vec2& u) const {
-  const auto cone = coneFrom(from);
-  return cone ? sampleCone(*cone, u) : Shape::sampleSolidAngle(element, from, u);
+  const Cone cone = coneFrom(from);
+  return cone.empty() ? Shape::sampleSolidAngle(element, from, u) : sampleCone(cone, u);
 }
 
 std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) const {
@@ -205,15 +205,15 @@ std::optional<ShapeSample> Sphere::sampleCone(const Cone& cone, const Vec2& u) c
 
 float Sphere::pdfSolidAngle(uint32_t element, const Vec3& from, const Vec3& p,
                             const Vec3& n) const {
-  const auto cone = coneFrom(from);
-  if (!cone) return Shape::pdfSolidAngle(element, from, p, n);
+  const Cone cone = coneFrom(from);
+  if (cone.empty()) return Shape::pdfSolidAngle(element, from, p, n);
   // The far side is never drawn. On the silhouette rounding of p decides nothing.
   const DVec3 fromCentre = DVec3(p) - worldOrigin(), back = DVec3(from) - DVec3(p);
   const double reach = glm::length(worldOrigin()) + 2 * ballRadius();  // of its points at most
   const double tolerance =
-      8 * static_cast<double>(kMachineEpsilon) * reach * std::sqrt(cone->distance2);
+      8 * static_cast<double>(kMachineEpsilon) * reach * std::sqrt(cone.distance2);
   if (glm::dot(fromCentre, back) < -tolerance) return 0;
-  const float pdf = cone->pdf();
+  const float pdf = cone.pdf();
   return std::isfinite(pdf) && area(element) > 0 ? pdf : 0;
 }
 
