@@ -261,11 +261,12 @@ bool toEmbree(const Ray& ray, float limit, RTCRay& out) {
   const Vec3 largest = absComponents(ray.o) + absComponents(ray.d);
   if (!(ray.tMax > 0 && largest.x <= limit && largest.y <= limit && largest.z <= limit))
     return false;
-  out.org_x = ray.o.x, out.org_y = ray.o.y, out.org_z = ray.o.z;
-  out.dir_x = ray.d.x, out.dir_y = ray.d.y, out.dir_z = ray.d.z;
-  out.tnear = std::numeric_limits<float>::min();
+  // Four at once, as Embree reads them: a read of what lies in several writes waits for them.
+  using Four = float __attribute__((vector_size(16), may_alias));
+  constexpr float kNear = std::numeric_limits<float>::min();
+  reinterpret_cast<Four&>(out.org_x) = Four{ray.o.x, ray.o.y, ray.o.z, kNear};
+  reinterpret_cast<Four&>(out.dir_x) = Four{ray.d.x, ray.d.y, ray.d.z, ray.time};
   out.tfar = std::isinf(ray.tMax) ? ray.tMax : nextFloatDown(ray.tMax);
-  out.time = ray.time;
   out.mask = ~0u;
   out.id = out.flags = 0;
   return true;

@@ -30,6 +30,17 @@ struct LightSampleContext {
 struct SampledLight {
   LightId light = kNoLight;
   float pmf = 0;  ///< exact probability of the draw, or the expected count in a cut
+
+  SampledLight() = default;
+  SampledLight(LightId light, float pmf) : light(light), pmf(pmf) {}
+  // Member by member: a copy as one word would wait for both to be written.
+  SampledLight(const SampledLight& o) : light(o.light), pmf(o.pmf) {}
+  SampledLight& operator=(const SampledLight& o) {
+    light = o.light;
+    pmf = o.pmf;
+    return *this;
+  }
+  ~SampledLight() = default;
 };
 using SampledLights = std::vector<SampledLight>;
 

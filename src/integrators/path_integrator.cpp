@@ -171,6 +171,12 @@ bool PathEstimator::scatter(Path& path, SurfaceInteraction& at, const Material& 
   return !state.bsdf.empty() && shade(path, at, &material, stream, state);
 }
 
+/// Takes three numbers.
+std::optional<BsdfSample> sampleDirection(const Bsdf& bsdf, const Vec3& wo, SampleStream& stream) {
+  const Vec2 u = stream.next2D();
+  return bsdf.sample(wo, stream.next1D(), u);
+}
+
 /// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
 /// `material` is null where light has entered below a surface.
 bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Material* material,
@@ -185,12 +191,8 @@ bool PathEstimator::shade(Path& path, const SurfaceInteraction& at, const Materi
   // Where rays find no light, the last one need not be traced.
   const bool goesOn = path.bounces + 1 < maxDepth_ || below || lighting_.hasVisibleLights();
   // Drawn before the lights: the processor does both at once, since neither waits for the other.
-  std::optional<BsdfSample> s;
-  if (goesOn) {
-    stream.setDimension(first + 3);
-    const Vec2 u = stream.next2D();
-    s = bsdf.sample(at.wo, stream.next1D(), u);
-  }
+  stream.setDimension(first + 3);
+  const auto s = goesOn ? sampleDirection(bsdf, at.wo, stream) : std::optional<BsdfSample>();
   stream.setDimension(first);
   if (lighting_.hasLights() && !bsdf.isSpecular()) {
     // In place: to copy what was just written, in larger pieces, waits for all of it.
