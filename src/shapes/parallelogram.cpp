@@ -46,9 +46,6 @@ struct Parallelogram::View {
     return glm::dot(shape.e1_, shape.e1_) + glm::dot(shape.e2_, shape.e2_) >
            kWide * glm::dot(centre, centre);
   }
-  // Both sweep around the corner, on from the diagonal.
-  SphericalTriangle first() const { return {a + shape.e1_, a, a + shape.e1_ + shape.e2_, volume}; }
-  SphericalTriangle second() const { return {a + shape.e1_ + shape.e2_, a, a + shape.e2_, volume}; }
   /// By solid angle at distance `d`, of points that are uniform by area; as for triangles.
   float uniformPdf(float d) const {
     const double distance = d;
@@ -60,20 +57,44 @@ struct Parallelogram::View {
   double volume;
 };
 
-ShapeSample Parallelogram::at(const Vec2& st) const {
+/// Two spherical triangles that sweep around the corner, the second on from the diagonal.
+struct Parallelogram::Halves {
+  [[gnu::always_inline]] explicit Halves(const View& v)
+      : corner(v.a),
+        next(v.a + v.shape.e1_),
+        opposite(v.a + v.shape.e1_ + v.shape.e2_),
+        last(v.a + v.shape.e2_),
+        first(next, corner, opposite, v.volume),
+        second(opposite, corner, last, v.volume),
+        whole((first.half() + second.half()).solidAngle()) {}
+
+  /// As (s, t) of corner + s e1 + t e2.
+  Vec2 sample(const Vec2& u) const {
+    const HalfAngle swept = HalfAngle::ofSolidAngle(u.x * whole);
+    const HalfAngle beyond = swept - first.half();
+    const bool isFirst = beyond.sin < 0;
+    const Vec3 b = (isFirst ? first : second).sample(isFirst ? swept : beyond, u.y);
+    return isFirst ? Vec2(b.x + b.z, b.z) : Vec2(b.x, b.x + b.z);
+  }
+
+  SeenCorner corner, next, opposite, last;
+  SphericalTriangle first, second;
+  float whole;  ///< solid angle
+};
+
+inline ShapeSample Parallelogram::at(const Vec2& st, float pdf) const {
   const Vec3 e1(e1_), e2(e2_);
   ShapeSample out;
   out.p = Vec3(corner_) + (st.x * e1 + st.y * e2);
   out.pError = roundingBound(2) * absComponents(out.p) + gap_ +
                roundingBound(7) * (st.x * absComponents(e1) + st.y * absComponents(e2));
   out.n = normal_;
+  out.pdf = pdf;
   return out;
 }
 
 std::optional<ShapeSample> Parallelogram::sampleArea(uint32_t, const Vec2& u) const {
-  ShapeSample s = at(u);
-  s.pdf = 1 / area_;
-  return s;
+  return at(u, 1 / area_);
 }
 
 std::optional<ShapeSample> Parallelogram::sampleSolidAngle(uint32_t, const Vec3& from,
@@ -82,32 +103,22 @@ std::optional<ShapeSample> Parallelogram::sampleSolidAngle(uint32_t, const Vec3&
   const View view(*this, from);
   if (!(view.volume > 0)) return out;  // seen edge on
   if (view.isWide()) {
-    const SphericalTriangle first = view.first(), second = view.second();
-    const float whole = first.solidAngle() + second.solidAngle();
-    const float share = first.solidAngle() / whole;
-    if (u.x < share) {
-      const Vec3 b = first.sample({std::min(u.x / share, kOneMinusEpsilon), u.y});
-      out = at({b.x + b.z, b.z});
-    } else if (whole > 0) {
-      const Vec3 b = second.sample({std::min((u.x - share) / (1 - share), kOneMinusEpsilon), u.y});
-      out = at({b.x, b.x + b.z});
-    } else {
-      out.emplace();
-    }
-    out->pdf = 1 / whole;
+    const Halves halves(view);
+    out.emplace(at(halves.sample(u), 1 / halves.whole));
   } else {
-    out = at(u);
+    out.emplace(at(u, 0));
     out->pdf = view.uniformPdf(distance(out->p, from));
   }
-  if (out->pdf > 0 && std::isfinite(out->pdf)) return out;
-  countRejection(Rejection::LightDensity);
-  return std::nullopt;
+  if (!(out->pdf > 0) || !std::isfinite(out->pdf)) {
+    countRejection(Rejection::LightDensity);
+    out.reset();
+  }
+  return out;
 }
 
 float Parallelogram::pdfSolidAngle(uint32_t, const Vec3& from, const Vec3& p, const Vec3&) const {
   const View view(*this, from);
-  const float pdf = view.isWide() ? 1 / (view.first().solidAngle() + view.second().solidAngle())
-                                  : view.uniformPdf(distance(p, from));
+  const float pdf = view.isWide() ? 1 / Halves(view).whole : view.uniformPdf(distance(p, from));
   return std::isfinite(pdf) ? pdf : 0;
 }
 

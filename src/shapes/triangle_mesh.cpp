@@ -83,7 +83,9 @@ struct TriangleMesh::View {
     const DVec3 centre = 3. * a + e1 + e2;
     return 9 * (glm::dot(e1, e1) + glm::dot(e2, e2)) > kWide * glm::dot(centre, centre);
   }
-  SphericalTriangle spherical() const { return {a, a + e1, a + e2, volume}; }
+  SphericalTriangle spherical() const {
+    return {SeenCorner(a), SeenCorner(a + e1), SeenCorner(a + e2), volume};
+  }
   /// By solid angle at distance `d`, of points that are uniform by area: d² / (cos θ · area). The
   /// distance from the plane stands for d cos θ, where rounding of the point would decide.
   float uniformPdf(float d) const {
@@ -159,27 +161,30 @@ inline Vec3 TriangleMesh::orientedNormal(const DVec3& areaNormal, const Vec3& ve
   return flip_ ? -n : n;
 }
 
-/// Sets uv, dpdu and dpdv; false if uv does not parameterise the triangle.
-bool TriangleMesh::setParameters(const Corners& c, const Vec3& b, const DVec3& areaNormal,
-                                 SurfaceInteraction& out) const {
+struct TriangleMesh::Parameters {
+  Vec2 uv;
+  Vec3 dpdu, dpdv;
+  bool valid;  ///< false: uv does not parameterise the triangle
+};
+
+inline TriangleMesh::Parameters TriangleMesh::parameters(const Corners& c, const Vec3& b,
+                                                         const DVec3& areaNormal) const {
   double across = glm::dot(areaNormal, areaNormal);  // |dpdu × dpdv|²
-  if (data_.uvs.empty()) {                           // the solution for the uv that stand in
-    out.uv = Vec2(b.y + b.z, b.z);
-    out.dpdu = c.p1 - c.p0;
-    out.dpdv = c.p2 - c.p1;
+  Parameters out;
+  if (data_.uvs.empty()) {  // the solution for the uv that stand in
+    out = {Vec2(b.y + b.z, b.z), c.p1 - c.p0, c.p2 - c.p1, true};
   } else {
     const auto uv = uvs(c);
-    out.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
     const UvSolver solver(uv);
-    if (solver.degenerate) return false;
-    out.dpdu = solver.byU(c.p0 - c.p2, c.p1 - c.p2);
-    out.dpdv = solver.byV(c.p0 - c.p2, c.p1 - c.p2);
+    out = {b.x * uv[0] + b.y * uv[1] + b.z * uv[2], solver.byU(c.p0 - c.p2, c.p1 - c.p2),
+           solver.byV(c.p0 - c.p2, c.p1 - c.p2), !solver.degenerate};
     across *= sqr(solver.inverse);
   }
   // The sine of their angle against what rounding makes of it; false for what is not finite, too.
   const DVec3 du(out.dpdu), dv(out.dpdv);
   constexpr double kLeastSine2 = sqr(static_cast<double>(roundingBound(8)));
-  return across > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv));
+  out.valid = out.valid && across > kLeastSine2 * (glm::dot(du, du) * glm::dot(dv, dv));
+  return out;
 }
 
 void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray,
@@ -199,10 +204,12 @@ void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray
   Vec3 n = orientedNormal(areaNormal, vertexNormal);
   // A ray tracer may report the edge of a triangle without area; it has no normal of its own.
   if (n == Vec3(0)) n = normalize(-ray.d);
-  if (!setParameters(c, b, areaNormal, out)) completeBasis(n, out.dpdu, out.dpdv);
+  Parameters by = parameters(c, b, areaNormal);
+  if (!by.valid) completeBasis(n, by.dpdu, by.dpdv);
+  out.uv = by.uv;
   out.n = out.shading.n = n;
-  out.shading.dpdu = out.dpdu;
-  out.shading.dpdv = out.dpdv;
+  out.dpdu = out.shading.dpdu = by.dpdu;
+  out.dpdv = out.shading.dpdv = by.dpdv;
 
   if (!data_.normals.empty() || !data_.tangents.empty()) setShadingFrame(c, b, vertexNormal, out);
   if (detail == SurfaceDetail::Full && !data_.normals.empty())
@@ -296,8 +303,9 @@ std::optional<ShapeSample> TriangleMesh::sampleSolidAngle(uint32_t element, cons
   float pdf;
   if (view.isWide()) {
     const SphericalTriangle seen = view.spherical();
-    pdf = 1 / seen.solidAngle();
-    b = seen.sample(u);
+    const float whole = seen.solidAngle();
+    pdf = 1 / whole;
+    b = seen.sample(HalfAngle::ofSolidAngle(u.x * whole), u.y);
     p = c.point(b);
   } else {
     const Vec2 b01 = sampleUniformTriangle(u);

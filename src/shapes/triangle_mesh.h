@@ -61,8 +61,8 @@ class TriangleMesh final : public Shape {
   std::array<Vec2, 3> uvs(const Corners& c) const;
   Vec3 interpolatedNormal(const Corners& c, const Vec3& b) const;
   Vec3 orientedNormal(const glm::dvec3& areaNormal, const Vec3& vertexNormal) const;
-  bool setParameters(const Corners& c, const Vec3& b, const glm::dvec3& areaNormal,
-                     SurfaceInteraction& out) const;
+  struct Parameters;
+  Parameters parameters(const Corners& c, const Vec3& b, const glm::dvec3& areaNormal) const;
   void setShadingFrame(const Corners& c, const Vec3& b, const Vec3& vertexNormal,
                        SurfaceInteraction& out) const;
   void setNormalDerivatives(const Corners& c, const Vec3& vertexNormal,

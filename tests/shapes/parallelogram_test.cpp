@@ -42,8 +42,9 @@ const std::vector<Quad>& quads() {
 
 double solidAngle(const Vec3& from, const DVec3& p, const DVec3& q, const DVec3& r) {
   const DVec3 a = p - DVec3(from), b = q - DVec3(from), c = r - DVec3(from);
-  return static_cast<double>(
-      SphericalTriangle(a, b, c, std::abs(glm::dot(a, glm::cross(b - a, c - a)))).solidAngle());
+  return static_cast<double>(SphericalTriangle(SeenCorner(a), SeenCorner(b), SeenCorner(c),
+                                               std::abs(glm::dot(a, glm::cross(b - a, c - a))))
+                                 .solidAngle());
 }
 
 /// Of a part: from (s, t) on, `width` along both edges.
