@@ -9,8 +9,8 @@ enum class Query : uint8_t { Nearest, Occlusion };
 
 const UserShapes& shapesOf(const void* user) { return *static_cast<const UserShapes*>(user); }
 
-Ray toRay(const RTCRay& r) {
-  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, r.time};
+Ray toRay(const RTCRay& r, float tMax) {
+  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, tMax, r.time};
 }
 
 void evaluateSurface(const Primitive& primitive, uint32_t element, const ShapeHit& hit,
@@ -34,8 +34,7 @@ bool passes(const Primitive& primitive, const SurfaceInteraction& at, Query quer
 std::optional<ShapeHit> firstHit(const Primitive& primitive, uint32_t element, const RTCRay& r,
                                  Query query) {
   // Embree allows t = tfar, Shape does not.
-  Ray ray = toRay(r);
-  ray.tMax = nextFloatUp(ray.tMax);
+  Ray ray = toRay(r, nextFloatUp(r.tfar));
   auto hit = primitive.shape->intersect(element, ray);
   if (!primitive.alpha && (query == Query::Nearest || !primitive.shadowAlpha)) return hit;
   // A curved shape may be met again behind a hole; few times, so a bound is no loss.
@@ -59,7 +58,7 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
   const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
   SurfaceInteraction at;
-  evaluateSurface(primitive, hit.primID, {ray.tfar, {hit.u, hit.v}}, toRay(ray), at);
+  evaluateSurface(primitive, hit.primID, {ray.tfar, {hit.u, hit.v}}, toRay(ray, ray.tfar), at);
   if (passes(primitive, at, query)) args->valid[0] = 0;
 }
 

@@ -82,19 +82,19 @@ struct Parallelogram::Halves {
   float whole;  ///< solid angle
 };
 
-inline ShapeSample Parallelogram::at(const Vec2& st, float pdf) const {
+inline void Parallelogram::set(ShapeSample& out, const Vec2& st, float pdf) const {
   const Vec3 e1(e1_), e2(e2_);
-  ShapeSample out;
   out.p = Vec3(corner_) + (st.x * e1 + st.y * e2);
   out.pError = roundingBound(2) * absComponents(out.p) + gap_ +
                roundingBound(7) * (st.x * absComponents(e1) + st.y * absComponents(e2));
   out.n = normal_;
   out.pdf = pdf;
-  return out;
 }
 
 std::optional<ShapeSample> Parallelogram::sampleArea(uint32_t, const Vec2& u) const {
-  return at(u, 1 / area_);
+  std::optional<ShapeSample> out;
+  set(out.emplace(), u, 1 / area_);
+  return out;
 }
 
 std::optional<ShapeSample> Parallelogram::sampleSolidAngle(uint32_t, const Vec3& from,
@@ -102,14 +102,15 @@ std::optional<ShapeSample> Parallelogram::sampleSolidAngle(uint32_t, const Vec3&
   std::optional<ShapeSample> out;
   const View view(*this, from);
   if (!(view.volume > 0)) return out;  // seen edge on
+  ShapeSample& s = out.emplace();
   if (view.isWide()) {
     const Halves halves(view);
-    out.emplace(at(halves.sample(u), 1 / halves.whole));
+    set(s, halves.sample(u), 1 / halves.whole);
   } else {
-    out.emplace(at(u, 0));
-    out->pdf = view.uniformPdf(distance(out->p, from));
+    set(s, u, 0);
+    s.pdf = view.uniformPdf(distance(s.p, from));
   }
-  if (!(out->pdf > 0) || !std::isfinite(out->pdf)) {
+  if (!(s.pdf > 0) || !std::isfinite(s.pdf)) {
     countRejection(Rejection::LightDensity);
     out.reset();
   }

@@ -32,7 +32,7 @@ class Parallelogram final : public SampledSurface {
   struct Halves;
   Parallelogram() = default;
   /// corner + s e1 + t e2.
-  ShapeSample at(const Vec2& st, float pdf) const;
+  void set(ShapeSample& out, const Vec2& st, float pdf) const;
 
   glm::dvec3 corner_{0}, e1_{0}, e2_{0}, areaNormal_{0};
   Vec3 normal_{0}, gap_{0};  ///< gap: how far the fourth corner is off

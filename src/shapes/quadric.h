@@ -55,9 +55,10 @@ class Quadric : public Shape {
   virtual DVec2 sampleParameters(const Vec2& u) const = 0;
 
   ObjectRay toObject(const Ray& ray) const {
-    return {toObject_ * (DVec3(ray.o) - translation_), toObject_ * DVec3(ray.d),
-            static_cast<double>(ray.tMax)};
+    return {objectPoint(ray.o), objectVector(ray.d), static_cast<double>(ray.tMax)};
   }
+  DVec3 objectPoint(const Vec3& p) const { return toObject_ * (DVec3(p) - translation_); }
+  DVec3 objectVector(const Vec3& v) const { return toObject_ * DVec3(v); }
   DVec3 toWorld(const DVec3& p) const { return matrix_ * p + translation_; }
   ShapeSample sampleAt(DVec2 uv) const;
   bool isEmpty() const { return !(objectArea_ > 0); }

@@ -135,18 +135,18 @@ std::optional<DVec2> Sphere::accept(const DVec3& p) const {
 std::optional<ShapeHit> Sphere::intersect(uint32_t element, const Ray& ray) const {
   (void)element;
   if (isEmpty()) return std::nullopt;
-  const ObjectRay r = toObject(ray);
+  const DVec3 o = objectPoint(ray.o), d = objectVector(ray.d);
   // The discriminant by the distance of the line from the centre: no difference of large squares
   // for rays from afar (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection").
-  const double a = glm::dot(r.d, r.d), halfB = glm::dot(r.o, r.d);
-  const DVec3 foot = r.o - (halfB / a) * r.d;
+  const double a = glm::dot(d, d), halfB = glm::dot(o, d);
+  const DVec3 foot = o - (halfB / a) * d;
   const double reach = radius_ * radius_ - glm::dot(foot, foot);
-  const double far = glm::length(r.o);
+  const double far = glm::length(o);
   const Roots roots = quadraticRoots(a, halfB, (far - radius_) * (far + radius_), a * reach);
   for (int i = 0; i < roots.count; ++i) {
     const auto t = static_cast<float>(roots.t[i]);
     if (!(t > 0 && t < ray.tMax)) continue;
-    const DVec3 p = r.o + roots.t[i] * r.d;
+    const DVec3 p = o + roots.t[i] * d;
     if (const auto uv = accept(p * (radius_ / glm::length(p)))) return ShapeHit{t, Vec2(*uv)};
   }
   return std::nullopt;
