@@ -24,11 +24,8 @@ bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scatter
   const bool transmits = point.onSurface() && point.transmits;
   back_.fill(transmits ? cache_.find(point.p, -point.n) : SignificanceCache::Lobes(), -point.n,
              scattering);
-  const float total = front_.total + back_.total;
-  if (!(total > 0) || !std::isfinite(1 / total)) return false;
-  front_.scale(1 / total);
-  back_.scale(1 / total);
-  return true;
+  share_ = 1 / scattered();
+  return scattered() > 0 && std::isfinite(share_);
 }
 
 /// Takes the lobes that count above a plane with normal `n` (zero: everywhere).
@@ -58,15 +55,8 @@ void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, const Vec3& n
     x[i] = y[i] = z[i] = normalisation[i] = factors[i] = squarings[i] = 0;
 }
 
-void LobeMixture::Side::scale(float factor) {
-  for (size_t i = 0; i < count; ++i) {
-    weight[i] *= factor;
-    normalisation[i] *= factor;
-  }
-}
-
 /// As a sum over lobePower(), a few lobes at a time.
-float LobeMixture::Side::pdf(const Vec3& wi) const {
+double LobeMixture::Side::sum(const Vec3& wi) const {
   Doubles sum = 0;
   for (size_t i = 0; i < count; i += kLanes) {
     const Floats dx = wi.x - floats(&x[i]), dy = wi.y - floats(&y[i]), dz = wi.z - floats(&z[i]);
@@ -81,27 +71,26 @@ float LobeMixture::Side::pdf(const Vec3& wi) const {
       stdx::where(left > static_cast<double>(done), power) *= Doubles(power);
     sum += doubles(&normalisation[i]) * power;
   }
-  return static_cast<float>(stdx::reduce(sum));
+  return stdx::reduce(sum);
 }
 
 Vec3 LobeMixture::sample(float u, const Vec2& v, NumberSequence& more) const {
-  float left = u;
+  float left = u * scattered();
   const auto drawn = [&](const Side& side, const Vec3& n) {
     size_t i = 0;
     for (; i + 1 < side.count && left >= side.weight[i]; ++i) left -= side.weight[i];
     return n == Vec3(0) ? sampleLobe(side.level[i], side.axis(i), v)
                         : sampleClippedLobe(side.level[i], side.axis(i), n, v, more);
   };
-  const float front = front_.total / scattered();
-  if (back_.count == 0 || left < front) return drawn(front_, n_);
-  left -= front;
+  if (back_.count == 0 || left < front_.total) return drawn(front_, n_);
+  left -= front_.total;
   return drawn(back_, -n_);
 }
 
 float LobeMixture::pdf(const Vec3& wi) const {
-  if (n_ == Vec3(0)) return front_.pdf(wi);
-  const float side = dot(wi, n_);
-  return side > 0 ? front_.pdf(wi) : side < 0 ? back_.pdf(wi) : 0.f;
+  const float side = n_ == Vec3(0) ? 1.f : dot(wi, n_);
+  const double sum = side > 0 ? front_.sum(wi) : side < 0 ? back_.sum(wi) : 0.;
+  return static_cast<float>(sum * static_cast<double>(share_));
 }
 
 }  // namespace lampyris

@@ -24,23 +24,24 @@ class LobeMixture final : public LocalGuide {
   struct Side {
     static constexpr size_t kMost = SignificanceCache::kMostNearest;
 
-    float total = 0;  ///< sum of the weights, before scale()
+    float total = 0;  ///< sum of the weights
     size_t count = 0;
     int mostSquarings = 0;
     // Loops run over whole vectors; what stands behind the last lobe has no weight.
     alignas(64) std::array<float, kMost> x, y, z;
     std::array<float, kMost> factors, squarings;     ///< of the power, see lobePower()
-    std::array<float, kMost> weight, normalisation;  ///< share in the mixture; the same / V
+    std::array<float, kMost> weight, normalisation;  ///< eq. 4; the same / V
     std::array<int32_t, kMost> level;
 
     void fill(const SignificanceCache::Lobes& cell, const Vec3& n, const DirectionWeight& at);
-    void scale(float factor);
-    float pdf(const Vec3& wi) const;
+    /// Of the lobes' densities, by weight.
+    double sum(const Vec3& wi) const;
     Vec3 axis(size_t i) const { return {x[i], y[i], z[i]}; }
   };
 
   const SignificanceCache& cache_;
   Vec3 n_{0};
+  float share_ = 0;    ///< of a lobe in the mixture, over its weight
   Side front_, back_;  ///< back_: of what is transmitted
 };
 

@@ -68,14 +68,12 @@ SignificanceCache::Root SignificanceCache::rootOf(const Vec3& p, const Vec3& n) 
   // Far beyond, in endless media, all is one cell. Shifted by a third of a cell, so that walls on
   // the scene's bounds do not lie on the cells' faces.
   constexpr float kFarthest = 1e6f;
-  Root root{facing(n), {}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float x = (p[axis] - origin_[axis]) / size_ + 1 / 3.f;
-    const float cell = std::floor(std::clamp(x, -kFarthest, kFarthest));
-    root.key = hashCombine(root.key, static_cast<uint64_t>(static_cast<int64_t>(cell)));
-    root.centre[axis] = origin_[axis] + (cell + 0.5f - 1 / 3.f) * size_;
-  }
-  return root;
+  const Vec3 x = (p - origin_) / size_ + 1 / 3.f;
+  const Vec3 cell = glm::floor(glm::clamp(x, -kFarthest, kFarthest));
+  uint64_t key = facing(n);
+  for (int axis = 0; axis < 3; ++axis)
+    key = hashCombine(key, static_cast<uint64_t>(static_cast<int64_t>(cell[axis])));
+  return {key, origin_ + (cell + (0.5f - 1 / 3.f)) * size_};
 }
 
 SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) const {

@@ -111,16 +111,18 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
   return c->value * (weight / density);
 }
 
-std::optional<DrawnLight> DirectLighting::drawLight(const LightSampleContext& at,
-                                                    SampleStream& stream) const {
+DrawnLight DirectLighting::drawLight(const LightSampleContext& at, SampleStream& stream) const {
   const float choice = stream.next1D();
   const auto chosen = distribution_->sample(at, choice);
   if (chosen) prefetchLight(scene_, *chosen);
   const Vec2 u = stream.next2D();  // while the light is fetched
-  if (!chosen || !(chosen->pmf > 0)) return std::nullopt;
-  const auto s = lightArriving(scene_, chosen->light, at.p, u);
-  if (!s) return std::nullopt;
-  return DrawnLight{*s, chosen->pmf * s->pdf, scene_.lightTable[chosen->light].light->isDelta()};
+  if (!chosen || !(chosen->pmf > 0)) return {};
+  DrawnLight drawn{lightArriving(scene_, chosen->light, at.p, u)};
+  if (drawn.light) {
+    drawn.density = chosen->pmf * drawn.light->pdf;
+    drawn.isDelta = scene_.lightTable[chosen->light].light->isDelta();
+  }
+  return drawn;
 }
 
 float DirectLighting::lightWeight(const DrawnLight& drawn, float scatterPdf) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "base/integrator.h"
 #include "integrators/render_loop.h"
@@ -18,8 +19,8 @@ enum class LightStrategy : uint8_t {
 
 /// Light drawn for a point, before anything is known of what scatters it there.
 struct DrawnLight {
-  LightSample light;
-  float density = 0;  ///< expected draws × pdf by solid angle
+  std::optional<LightSample> light;  ///< none where nothing arrives
+  float density = 0;                 ///< expected draws × pdf by solid angle
   bool isDelta = false;
 };
 
@@ -53,8 +54,8 @@ class DirectLighting {
                   RayCounts& rays) const;
 
   /// For integrators that scatter and shade the light themselves: one light of the distribution
-  /// (LightStrategy::One, `mayCut` false); none where nothing arrives. Takes three numbers.
-  std::optional<DrawnLight> drawLight(const LightSampleContext& at, SampleStream& stream) const;
+  /// (LightStrategy::One, `mayCut` false). Takes three numbers.
+  DrawnLight drawLight(const LightSampleContext& at, SampleStream& stream) const;
   /// The weight of a light drawn with drawLight() where the point's own sampling has density
   /// `scatterPdf` for its direction: the other half of foundAtHit() and foundOutside().
   static float lightWeight(const DrawnLight& drawn, float scatterPdf);

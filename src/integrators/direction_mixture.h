@@ -65,8 +65,8 @@ class DirectionMixture {
     return guide_ ? ownShare_ * ownPdf + (1 - ownShare_) * guidePdf : ownPdf;
   }
   float guidePdf(const Vec3& wi) const { return guide_ ? guide_->pdf(wi) : -1; }
-  DrawnDirection drawn(const Vec3& wi, const Rgb& scattered, float ownPdf) const;
-  std::optional<DrawnDirection> sampleOwn(float uc, const Vec2& u) const;
+  void set(DrawnDirection& d, const Vec3& wi, const Rgb& scattered, float ownPdf) const;
+  void sampleOwn(DrawnDirection& d, float uc, const Vec2& u) const;
 
   const ScatteringPoint& at_;
   const LocalGuide* guide_;

@@ -73,13 +73,12 @@ void GuidedMemory::finish(const Rgb& radiance) {
     return Rgb(c.r > 0 ? c.r : 0.f, c.g > 0 ? c.g : 0.f, c.b > 0 ? c.b : 0.f);
   };
   for (const Turn& t : turns) {
-    GuideSample s = t.sample;
+    GuideSample& s = samples.emplace_back(t.sample);
     s.radiance = positive((radiance - t.before) / t.throughput).luminance();
     s.gain = positive((radiance - t.before + t.direct) / t.throughput * t.scattered).luminance();
-    if (std::isfinite(s.radiance) && std::isfinite(s.gain))
-      samples.push_back(s);
-    else
-      countRejection(Rejection::LearningSample);
+    if (std::isfinite(s.radiance) && std::isfinite(s.gain)) continue;
+    samples.pop_back();
+    countRejection(Rejection::LearningSample);
   }
   turns.clear();
 }
@@ -155,19 +154,21 @@ void VolumePathEstimator::addDimmedEmission(Path& path, const std::optional<Hit>
               found * path.medium->transmittance(segment, path.numbers, path.state.rays.tracking));
 }
 
+/// The first distance after a bounce has the sampler's numbers.
+MediumSample VolumePathEstimator::sampleDistance(Path& path, const Ray& segment) {
+  TrackingCounts& counts = path.state.rays.tracking;
+  if (path.distanceDrawn) return path.medium->sample(segment, path.numbers, counts);
+  path.distanceDrawn = true;
+  path.setDimension(kDistanceOffset);
+  NumberSequence numbers = path.numbers.fork(path.stream.next2D());
+  return path.medium->sample(segment, numbers, counts);
+}
+
 /// Goes through the medium up to `tMax`, or scatters in it.
 VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float tMax) const {
   Ray segment = path.ray;
   segment.tMax = tMax;
-  MediumSample s;
-  if (path.distanceDrawn) {
-    s = path.medium->sample(segment, path.numbers, path.state.rays.tracking);
-  } else {
-    path.distanceDrawn = true;
-    path.setDimension(kDistanceOffset);
-    NumberSequence numbers = path.numbers.fork(path.stream.next2D());
-    s = path.medium->sample(segment, numbers, path.state.rays.tracking);
-  }
+  const MediumSample s = sampleDistance(path, segment);
   path.throughput *= s.weight;
   path.unguided *= s.weight;
   if (path.throughput.isBlack()) return Event::Ended;
@@ -176,7 +177,7 @@ VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float 
 
   const Vec3 p = segment.at(s.t), wo = -path.ray.d;
   path.surface = nullptr;
-  path.from = LightSampleContext();
+  std::construct_at(&path.from);
   path.from.p = p;
   path.from.wo = wo;
   path.ray.o = p;
@@ -361,26 +362,32 @@ const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w
 Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
                                  const ScatteringPoint& point) const {
   path.setDimension(0);
-  const auto drawn = lighting_.drawLight(path.from, path.stream);
-  if (!drawn) return Rgb();
-  const Vec3& wi = drawn->light.wi;
+  const DrawnLight drawn = lighting_.drawLight(path.from, path.stream);
+  if (!drawn.light) return Rgb();
+  const Vec3& wi = drawn.light->wi;
   const Rgb scattered = point.scattered(wi);
   if (scattered.isBlack()) return Rgb();
-  Ray ray = unitShadowRay(path.from, path.ray.time, drawn->light);
-  const Rgb share =
-      transmittance(scene_, ray, mediumTowards(path, wi), path.numbers, path.state.rays);
+  const Rgb share = transmittance(scene_, unitShadowRay(path.from, path.ray.time, *drawn.light),
+                                  mediumTowards(path, wi), path.numbers, path.state.rays);
   if (share.isBlack()) return Rgb();
-  const float pdf = drawn->isDelta ? 0 : mixture.weighingPdf(point.pdf(wi));
-  const float weight = DirectLighting::lightWeight(*drawn, pdf);
-  return path.throughput * drawn->light.radiance * scattered * share * (weight / drawn->density);
+  const float pdf = drawn.isDelta ? 0 : mixture.weighingPdf(point.pdf(wi));
+  const float weight = DirectLighting::lightWeight(drawn, pdf);
+  return path.throughput * drawn.light->radiance * scattered * share * (weight / drawn.density);
 }
 
 void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
                                    const DrawnDirection& d) const {
   if (path.memory->turns.size() >= kMaxTurns) return;
-  const Vec3 n = where.onSurface() ? faceForward(where.n, d.wi) : Vec3(0);
-  GuideSample s{where.p, n, d.wi, 0, d.pdf, d.ownPdf, d.guidePdf};
-  path.memory->turns.push_back({s, path.throughput, path.radiance, d.scattered});
+  GuidedMemory::Turn& turn = path.memory->turns.emplace_back();
+  turn.sample.p = where.p;
+  turn.sample.n = where.onSurface() ? faceForward(where.n, d.wi) : Vec3(0);
+  turn.sample.wi = d.wi;
+  turn.sample.pdf = d.pdf;
+  turn.sample.ownPdf = d.ownPdf;
+  turn.sample.guidePdf = d.guidePdf;
+  turn.throughput = path.throughput;
+  turn.before = path.radiance;
+  turn.scattered = d.scattered;
 }
 
 }  // namespace lampyris

@@ -52,6 +52,7 @@ class VolumePathEstimator final : public RadianceEstimator {
   Rgb emission(const Path& path, const SurfaceInteraction& at) const;
   Rgb outside(const Path& path) const;
   void addDimmedEmission(Path& path, const std::optional<Hit>& hit, float tMax) const;
+  static MediumSample sampleDistance(Path& path, const Ray& segment);
   Event throughMedium(Path& path, float tMax) const;
   bool onSurface(Path& path, const Hit& hit) const;
   void addEmission(Path& path, const Rgb& found) const;
