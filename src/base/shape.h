@@ -46,6 +46,8 @@ class Shape : public SampledSurface {
   virtual Ball ball(uint32_t element) const { return (void)element, Ball{}; }
   /// The nearest hit with 0 < t < ray.tMax; not called for triangle meshes.
   virtual std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const = 0;
+  /// Fetches the beginning of what surface() will read of the element.
+  virtual void prefetch(uint32_t element) const { (void)element; }
   /// Fills p, pError, n, uv, dpdu …, shading of `out` for a hit of `ray`.
   virtual void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
                        SurfaceInteraction& out) const = 0;

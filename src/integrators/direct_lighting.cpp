@@ -2,7 +2,6 @@
 #include "integrators/direct_lighting.h"
 
 #include "core/sampling.h"
-#include "integrators/light_connection.h"
 
 namespace lampyris {
 
@@ -46,13 +45,14 @@ float DirectLighting::expectedDraws(const LightSampleContext& at, LightId light)
 Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, SampleStream& stream,
                                  RayCounts& rays) const {
   if (strategy_ == LightStrategy::One) {
-    const float choice = stream.next1D();
-    if (splits_) return cutSamples(at, time, choice, stream.next2D(), rays);
-    const auto chosen = distribution_->sample(at, choice);
-    if (chosen) prefetchLight(scene_, *chosen);
-    const Vec2 u = stream.next2D();  // while the light is fetched
-    if (!chosen || !(chosen->pmf > 0)) return Rgb();
-    return lightSample(at, time, *chosen, u, rays);
+    if (splits_) {
+      const float choice = stream.next1D();
+      return cutSamples(at, time, choice, stream.next2D(), rays);
+    }
+    LightConnection c;
+    if (!proposeLight(at, time, stream, c)) return Rgb();
+    ++rays.shadow;
+    return scene_.geometry->occluded(c.shadow) ? Rgb() : c.value;
   }
   Rgb sum;
   for (LightId id = 0; id < lightCount_; ++id) {
@@ -61,6 +61,17 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
       sum += lightSample(at, time, {id, static_cast<float>(n)}, stream.next2D(), rays);
   }
   return sum;
+}
+
+bool DirectLighting::proposeLight(const LightSampleContext& at, float time, SampleStream& stream,
+                                  LightConnection& out) const {
+  const auto chosen = distribution_->sample(at, stream.next1D());
+  if (chosen) prefetchLight(scene_, *chosen);
+  const Vec2 u = stream.next2D();  // while the light is fetched
+  if (!chosen || !(chosen->pmf > 0)) return false;
+  if (!proposeConnection(scene_, at, time, chosen->light, u, out)) return false;
+  out.value *= weightOverDensity(at, *chosen, out);
+  return true;
 }
 
 const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float choice) const {
@@ -103,12 +114,16 @@ void DirectLighting::recordDraws(const LightSampleContext& at, SampleStream stre
 Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
                                 const SampledLight& chosen, const Vec2& u, RayCounts& rays) const {
   const auto c = connectToLight(scene_, at, time, chosen.light, u, rays);
-  if (!c) return Rgb();
-  const float density = chosen.pmf * c->pdf;
+  return c ? c->value * weightOverDensity(at, chosen, *c) : Rgb();
+}
+
+float DirectLighting::weightOverDensity(const LightSampleContext& at, const SampledLight& chosen,
+                                        const LightConnection& c) const {
+  const float density = chosen.pmf * c.pdf;
   const float weight =
-      c->isDelta ? 1.f
-                 : misWeight(density, static_cast<float>(bsdfDraws_) * at.bsdf->pdf(at.wo, c->wi));
-  return c->value * (weight / density);
+      c.isDelta ? 1.f
+                : misWeight(density, static_cast<float>(bsdfDraws_) * at.bsdf->pdf(at.wo, c.wi));
+  return weight / density;
 }
 
 DrawnLight DirectLighting::drawLight(const LightSampleContext& at, SampleStream& stream) const {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/integrator.h"
-#include "integrators/render_loop.h"
+#include "integrators/light_connection.h"
 
 namespace lampyris {
 
@@ -35,6 +35,8 @@ class DirectLighting {
 
   /// False: light sampling is pointless.
   bool hasLights() const { return lightCount_ > 0; }
+  /// Whether lightSamples() may trace more than one ray.
+  bool drawsMany() const { return splits_ || strategy_ != LightStrategy::One; }
   /// False: no ray ever finds light.
   bool hasVisibleLights() const { return visible_; }
   /// How many dimensions lightSamples() takes; even.
@@ -46,6 +48,11 @@ class DirectLighting {
   /// its numbers from stream.dimension() on. at.bsdf must be set; `time` is that of the rays.
   Rgb lightSamples(const LightSampleContext& at, float time, SampleStream& stream,
                    RayCounts& rays) const;
+  /// The same as one connection with its weight in `value`, which counts where nothing occludes
+  /// `shadow`: for callers that have something to do before they trace that ray. False: nothing is
+  /// scattered. Not where drawsMany().
+  bool proposeLight(const LightSampleContext& at, float time, SampleStream& stream,
+                    LightConnection& out) const;
   /// Opens a light vertex and notes the lights that lightSamples() draws there with the same
   /// arguments, by drawing them again.
   void recordDraws(const LightSampleContext& at, SampleStream stream, AovRecord& record) const;
@@ -82,6 +89,9 @@ class DirectLighting {
                  RayCounts& rays) const;
   Rgb lightSample(const LightSampleContext& at, float time, const SampledLight& chosen,
                   const Vec2& u, RayCounts& rays) const;
+  /// Of a connection: the weight of light sampling over its density.
+  float weightOverDensity(const LightSampleContext& at, const SampledLight& chosen,
+                          const LightConnection& c) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
                    float lightPdf) const;
 

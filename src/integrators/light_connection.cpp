@@ -2,6 +2,7 @@
 #include "integrators/light_connection.h"
 
 #include <cmath>
+#include <memory>
 
 #include "core/rejections.h"
 
@@ -50,21 +51,27 @@ std::optional<LightSample> lightArriving(const Scene& scene, LightId light, cons
   return s;
 }
 
+bool proposeConnection(const Scene& scene, const LightSampleContext& at, float time, LightId light,
+                       const Vec2& u, LightConnection& out) {
+  const auto s = lightArriving(scene, light, at.p, u);
+  if (!s) return false;
+  const Rgb f = at.bsdf->f(at.wo, s->wi);
+  if (f.isBlack()) return false;
+  std::construct_at(&out.shadow, shadowRay(at, time, *s));  // in place
+  out.value = s->radiance * f * at.bsdf->absCosTheta(s->wi);
+  out.wi = s->wi;
+  out.pdf = s->pdf;
+  out.isDelta = scene.lightTable[light].light->isDelta();
+  return true;
+}
+
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,
                                               float time, LightId light, const Vec2& u,
                                               RayCounts& rays) {
   std::optional<LightConnection> out;
-  const auto s = lightArriving(scene, light, at.p, u);
-  if (!s) return out;
-  const Rgb f = at.bsdf->f(at.wo, s->wi);
-  if (f.isBlack()) return out;
-  ++rays.shadow;
-  if (scene.geometry->occluded(shadowRay(at, time, *s))) return out;
-  LightConnection& c = out.emplace();
-  c.value = s->radiance * f * at.bsdf->absCosTheta(s->wi);
-  c.wi = s->wi;
-  c.pdf = s->pdf;
-  c.isDelta = scene.lightTable[light].light->isDelta();
+  const bool proposed = proposeConnection(scene, at, time, light, u, out.emplace());
+  rays.shadow += proposed;
+  if (!proposed || scene.geometry->occluded(out->shadow)) out.reset();
   return out;
 }
 

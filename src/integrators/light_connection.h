@@ -14,6 +14,7 @@ namespace lampyris {
 /// Light scattered at a point after it came from a sample of a light.
 struct LightConnection {
   Rgb value;  ///< radiance × BSDF × |cos|, not divided by any density
+  Ray shadow;
   Vec3 wi{0};
   float pdf = 0;  ///< of the light's own sampling, by solid angle; 1 for delta lights
   bool isDelta = false;
@@ -48,8 +49,12 @@ inline void prefetchBeyondLights(const Scene& scene, const SampledLights& cut) {
 /// nothing arrives.
 std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
                                          const Vec2& u);
-/// None where nothing arrives or nothing is scattered. at.bsdf must be set; `u` chooses the point
-/// of the light; `time` is that of the shadow ray.
+/// Sets `out` to what is scattered if nothing is in the way, which out.shadow will tell; false:
+/// nothing is. at.bsdf must be set; `u` chooses the point of the light; `time` is that of the
+/// shadow ray.
+bool proposeConnection(const Scene& scene, const LightSampleContext& at, float time, LightId light,
+                       const Vec2& u, LightConnection& out);
+/// The same with the shadow ray traced: none either where nothing arrives.
 std::optional<LightConnection> connectToLight(const Scene& scene, const LightSampleContext& at,
                                               float time, LightId light, const Vec2& u,
                                               RayCounts& rays);

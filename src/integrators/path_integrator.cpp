@@ -2,7 +2,8 @@
 // Path tracing with next-event estimation (Kajiya 1986; Veach 1997). The image is pbrt-v3's "path"
 // in expectation. Where that traces a ray of its own for the BSDF half of multiple importance
 // sampling, here the path's next ray serves: one ray less a vertex, and the light that it finds is
-// weighed whichever light was drawn. Cost a vertex: one shadow ray, one ray.
+// weighed whichever light was drawn. Cost a vertex: one shadow ray, one ray; the shadow ray comes
+// second, while memory fetches what the other one has hit.
 #include "integrators/path_integrator.h"
 
 #include "integrators/aov_surface.h"
@@ -40,6 +41,7 @@ class PathEstimator final : public RadianceEstimator {
 
  private:
   struct Path;
+  void settle(Path& path, RenderState& state) const;
   static void addFound(Path& path, const RenderState& state, const Rgb& light);
   Rgb emission(const Path& path, const SurfaceInteraction& at) const;
   Rgb outside(const Path& path) const;
@@ -79,6 +81,9 @@ struct PathEstimator::Path {
   bool blind = false;
   LightSampleContext from{};
   float bsdfPdf = 0;
+  /// Light sampled at the last vertex whose shadow ray is still to be traced.
+  LightConnection proposed{};
+  bool isProposed = false;
   AdaptiveDirect::Allocation allocation{};
 };
 
@@ -88,6 +93,8 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   while (true) {
     ++state.rays.closest;
     const auto hit = geometry_.intersect(path.ray);
+    if (hit) prefetchSurface(geometry_, *hit);
+    settle(path, state);
     if (!hit) {
       if (!path.blind) addFound(path, state, outside(path));
       break;
@@ -109,7 +116,18 @@ Rgb PathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     if (!survives(path, stream)) break;
     if (!scatter(path, at, *material, stream, state)) break;
   }
+  settle(path, state);
   return path.radiance;
+}
+
+/// Traces the shadow ray of the last vertex, if one is proposed.
+void PathEstimator::settle(Path& path, RenderState& state) const {
+  if (!path.isProposed) return;
+  path.isProposed = false;
+  ++state.rays.shadow;
+  if (geometry_.occluded(path.proposed.shadow)) return;
+  path.radiance += path.proposed.value;
+  if (state.aov) state.aov->lightSampled(path.proposed.value);
 }
 
 /// Adds light that the path's ray has found.
@@ -133,9 +151,16 @@ Rgb PathEstimator::outside(const Path& path) const {
                    : lighting_.foundOutside(path.from, path.bsdfPdf, d);
 }
 
-/// Adds what light sampling at path.from finds. Takes its numbers from stream.dimension() on, or
-/// from those that adaptive direct lighting has for itself.
+/// Adds what light sampling at path.from finds, or proposes it if that is one light. Takes its
+/// numbers from stream.dimension() on, or from those that adaptive direct lighting has for itself.
 void PathEstimator::addLightSamples(Path& path, SampleStream& stream, RenderState& state) const {
+  if (!adaptive_ && !lighting_.drawsMany()) {
+    settle(path, state);
+    if (state.aov) lighting_.recordDraws(path.from, stream, *state.aov);
+    path.isProposed = lighting_.proposeLight(path.from, path.ray.time, stream, path.proposed);
+    path.proposed.value *= path.throughput;
+    return;
+  }
   Rgb light, scattered;
   if (adaptive_) {
     stream.setDimension(kAdaptiveDimension + path.vertices * AdaptiveDirect::kDimensions);

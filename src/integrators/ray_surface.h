@@ -33,6 +33,14 @@ inline SurfaceInteraction surfaceAt(const Geometry& geometry, const Ray& ray, co
   return at;
 }
 
+/// Fetches what surfaceAt() and the material will read first, for callers that have something to do
+/// before.
+inline void prefetchSurface(const Geometry& geometry, const Hit& hit) {
+  const Primitive& primitive = geometry.primitive(hit);
+  primitive.shape->prefetch(hit.element);
+  __builtin_prefetch(primitive.material);
+}
+
 /// Lets `ray` (unit direction), which has found `at`, go on behind it to where it was to end.
 inline void startBehind(Ray& ray, const SurfaceInteraction& at) {
   const Vec3 o = offsetRayOrigin(at.p, at.pError, at.n, ray.d);
