@@ -13,8 +13,8 @@ namespace lampyris {
 
 /// Light scattered at a point after it came from a sample of a light.
 struct LightConnection {
-  Rgb value;  ///< radiance × BSDF × |cos|, not divided by any density
-  Ray shadow;
+  Rgb value;   ///< radiance × BSDF × |cos|, not divided by any density
+  Ray shadow;  ///< what tells whether anything is in the way
   Vec3 wi{0};
   float pdf = 0;  ///< of the light's own sampling, by solid angle; 1 for delta lights
   bool isDelta = false;

@@ -158,7 +158,7 @@ void PathEstimator::addLightSamples(Path& path, SampleStream& stream, RenderStat
     settle(path, state);
     if (state.aov) lighting_.recordDraws(path.from, stream, *state.aov);
     path.isProposed = lighting_.proposeLight(path.from, path.ray.time, stream, path.proposed);
-    path.proposed.value *= path.throughput;
+    if (path.isProposed) path.proposed.value *= path.throughput;
     return;
   }
   Rgb light, scattered;
