@@ -63,13 +63,21 @@ Rgb DirectLighting::lightSamples(const LightSampleContext& at, float time, Sampl
   return sum;
 }
 
+inline std::optional<SampledLight> DirectLighting::chooseLight(const LightSampleContext& at,
+                                                               SampleStream& stream,
+                                                               Vec2& u) const {
+  auto chosen = distribution_->sample(at, stream.next1D());
+  if (chosen) prefetchLight(scene_, *chosen);
+  u = stream.next2D();  // while the light is fetched
+  if (chosen && !(chosen->pmf > 0)) chosen.reset();
+  return chosen;
+}
+
 bool DirectLighting::proposeLight(const LightSampleContext& at, float time, SampleStream& stream,
                                   LightConnection& out) const {
-  const auto chosen = distribution_->sample(at, stream.next1D());
-  if (chosen) prefetchLight(scene_, *chosen);
-  const Vec2 u = stream.next2D();  // while the light is fetched
-  if (!chosen || !(chosen->pmf > 0)) return false;
-  if (!proposeConnection(scene_, at, time, chosen->light, u, out)) return false;
+  Vec2 u;
+  const auto chosen = chooseLight(at, stream, u);
+  if (!chosen || !proposeConnection(scene_, at, time, chosen->light, u, out)) return false;
   out.value *= weightOverDensity(at, *chosen, out);
   return true;
 }
@@ -127,11 +135,9 @@ float DirectLighting::weightOverDensity(const LightSampleContext& at, const Samp
 }
 
 DrawnLight DirectLighting::drawLight(const LightSampleContext& at, SampleStream& stream) const {
-  const float choice = stream.next1D();
-  const auto chosen = distribution_->sample(at, choice);
-  if (chosen) prefetchLight(scene_, *chosen);
-  const Vec2 u = stream.next2D();  // while the light is fetched
-  if (!chosen || !(chosen->pmf > 0)) return {};
+  Vec2 u;
+  const auto chosen = chooseLight(at, stream, u);
+  if (!chosen) return {};
   DrawnLight drawn{lightArriving(scene_, chosen->light, at.p, u)};
   if (drawn.light) {
     drawn.density = chosen->pmf * drawn.light->pdf;

@@ -83,6 +83,9 @@ class DirectLighting {
   }
   /// How often lightSamples() draws the light, on average.
   float expectedDraws(const LightSampleContext& at, LightId light) const;
+  /// One light of the distribution, and the numbers `u` of the point on it.
+  std::optional<SampledLight> chooseLight(const LightSampleContext& at, SampleStream& stream,
+                                          Vec2& u) const;
   /// One light of each cluster of the distribution's cut; valid until the thread's next one.
   const SampledLights& drawCut(const LightSampleContext& at, float choice) const;
   Rgb cutSamples(const LightSampleContext& at, float time, float choice, const Vec2& u,
