@@ -8,6 +8,7 @@
 #include "accelerators/light_bvh.h"
 #include "accelerators/light_bvh_cost.h"
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace lampyris {
 namespace {
@@ -131,8 +132,8 @@ Subtree Builder::makeLeaf(size_t i, uint32_t node) {
 void Builder::prefetchInputs(size_t first, size_t last) const {
   for (size_t i = first; i < last; ++i) {
     const char* input = reinterpret_cast<const char*>(&inputs_[lights_[i].index()]);
-    __builtin_prefetch(input);
-    __builtin_prefetch(input + sizeof(LightBVHInput) - 1);
+    prefetchLine(input);
+    prefetchLine(input + sizeof(LightBVHInput) - 1);
   }
 }
 

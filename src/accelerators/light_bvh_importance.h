@@ -13,6 +13,7 @@
 
 #include "accelerators/light_bvh_node.h"
 #include "base/light_distribution.h"
+#include "core/prefetch.h"
 
 namespace lampyris {
 
@@ -179,8 +180,8 @@ inline ChildImportances childImportances(const LinearLightBVHNode* nodes, uint32
   const LinearLightBVHNode& l = nodes[parent + 1];
   const LinearLightBVHNode& r = nodes[nodes[parent].rightChild()];
   // The next level's nodes, whichever child it will be: their latency is most of a descent's time.
-  __builtin_prefetch(&nodes[l.light()]);
-  __builtin_prefetch(&nodes[r.light()]);
+  prefetchLine(&nodes[l.light()]);
+  prefetchLine(&nodes[r.light()]);
   return {at.importance(l), at.importance(r)};
 }
 

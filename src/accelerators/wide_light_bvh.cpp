@@ -6,6 +6,7 @@
 #include "accelerators/wide_light_bvh_builder.h"
 #include "accelerators/wide_light_bvh_importance.h"
 #include "accelerators/wide_light_bvh_way.h"
+#include "core/prefetch.h"
 
 namespace lampyris {
 namespace {
@@ -40,10 +41,10 @@ WideLightBVH::WideLightBVH(const LightBVHAccel& tree) {
 
 void WideLightBVH::prefetchBelow(const WideLightBVHNode& node) const {
   constexpr size_t kCacheLine = 64;
-  if (node.leaves) __builtin_prefetch(&lights_[node.firstLight]);
+  if (node.leaves) prefetchLine(&lights_[node.firstLight]);
   const char* const children = reinterpret_cast<const char*>(nodes_.data() + node.firstChild);
   const size_t bytes = static_cast<size_t>(std::popcount(node.inner)) * sizeof(WideLightBVHNode);
-  for (size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(children + i);
+  for (size_t i = 0; i < bytes; i += kCacheLine) prefetchLine(children + i);
 }
 
 const WideLightBVHNode* WideLightBVH::alikeCluster(const WideLightBVHNode& node,
@@ -59,8 +60,8 @@ SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, doub
   // Where it is if all are as strong: not far from where it is.
   uint32_t place = std::min(first + static_cast<uint32_t>(u * cluster.clusterLights), last);
   if (!cluster.even) {
-    __builtin_prefetch(&lights_[place]);
-    __builtin_prefetch(&intensitiesBefore_[place]);
+    prefetchLine(&lights_[place]);
+    prefetchLine(&intensitiesBefore_[place]);
     const Units units = unitsOf(first, cluster.clusterLights);
     const auto at = units.begin + static_cast<uint32_t>(u * (units.end - units.begin));
     while (intensitiesBefore_[place] > at) --place;

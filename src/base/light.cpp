@@ -23,14 +23,15 @@ LightId LightTable::add(const Light* light) {
 }
 
 void LightTable::addToRow(LightId id, const Light* light) {
+  const auto distance = [light](const void* to) {
+    return to ? static_cast<const char*>(to) - reinterpret_cast<const char*>(light) : 0;
+  };
   const uint32_t place = id % kRow;
-  if (place == 0) rows_.push_back({light, 0});
+  if (place == 0) rows_.push_back({light, 0, distance(light->beyond())});
   Row& row = rows_.back();
-  if (place == 1) {
-    row.stride = reinterpret_cast<const char*>(light) - reinterpret_cast<const char*>(row.first);
-  } else if (light != row.at(place)) {
-    row.stride = 0;
-  }
+  if (place == 1) row.stride = -distance(row.first);
+  if (place > 0 && light != row.at(place)) row.stride = 0;
+  if (row.beyond != distance(light->beyond())) row.beyond = 0;
 }
 
 }  // namespace lampyris

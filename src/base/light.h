@@ -8,6 +8,7 @@
 #include "base/shape.h"
 #include "core/bounds.h"
 #include "core/huge_pages.h"
+#include "core/prefetch.h"
 #include "core/registry.h"
 #include "core/rgb.h"
 
@@ -70,8 +71,8 @@ class Light {
   /// Called once with the scene's bounds before anything else (infinite and distant lights).
   virtual void prepare(const Bounds3& scene) { (void)scene; }
 
-  /// Fetches what sample() is going to read, beyond the light itself.
-  virtual void prefetch() const {}
+  /// What sample() reads first beyond the light itself; null: nothing.
+  virtual const void* beyond() const { return nullptr; }
   /// Draws incident light at `from`. None if nothing arrives.
   virtual std::optional<LightSample> sample(uint32_t element, const Vec3& from,
                                             const Vec2& u) const = 0;
@@ -142,12 +143,19 @@ class LightTable {
   LightId add(const Light* light);
   uint32_t size() const { return size_; }
   Entry operator[](LightId id) const {
-    if (dense_) {
-      const Row& row = rows_[id / kRow];
-      if (row.stride != 0) return {row.at(id % kRow), 0};
-    }
+    if (const Row* const row = rowOf(id)) return {row->at(id % kRow), 0};
     const Object& o = objects_[dense_ ? id : owner_[id]];
     return {o.light, id - o.firstId};
+  }
+  /// Fetches what Light::sample() of that light is going to read, in a row all of it at once.
+  void prefetch(LightId id) const {
+    if (const Row* const row = rowOf(id)) {
+      const char* const light = reinterpret_cast<const char*>(row->at(id % kRow));
+      prefetchLine(light);
+      prefetchLine(light + row->beyond);
+    } else {
+      prefetchLine((*this)[id].light);
+    }
   }
   size_t objectCount() const { return objects_.size(); }
   const Light& object(size_t i) const { return *objects_[i].light; }
@@ -162,13 +170,17 @@ class LightTable {
   /// found without a look at `objects_`, which misses the caches where lights are many.
   struct Row {
     const Light* first;
-    ptrdiff_t stride;  ///< in bytes; 0: they do not
+    ptrdiff_t stride = 0;  ///< in bytes; 0: they do not
+    ptrdiff_t beyond = 0;  ///< from a light to Light::beyond(), if that is the same for all; else 0
     const Light* at(uint32_t i) const {
       return reinterpret_cast<const Light*>(reinterpret_cast<const char*>(first) +
                                             static_cast<ptrdiff_t>(i) * stride);
     }
   };
-  static constexpr uint32_t kRow = 1024;
+  static constexpr uint32_t kRow = 256;
+  const Row* rowOf(LightId id) const {
+    return dense_ && rows_[id / kRow].stride != 0 ? &rows_[id / kRow] : nullptr;
+  }
   void addToRow(LightId id, const Light* light);
 
   HugeVector<Object> objects_;

@@ -207,6 +207,7 @@ Rgb AdaptiveDirect::brdfLightSample(Point& point, int i) const {
   const Vec2 u = point.stream.next2D();
   const auto chosen = point.brdf->sample(point.stream.next1D());
   if (!chosen || !(chosen->pmf > 0)) return Rgb();
+  scene_.lightTable.prefetch(chosen->light);
   if (point.state.aov) point.state.aov->lightDraw(chosen->pmf);
   const LightSampleContext& at = point.at;
   const auto c = connectToLight(scene_, at, point.time, chosen->light, u, point.state.rays);
@@ -267,7 +268,6 @@ void AdaptiveDirect::drawFromTree(Point& point) const {
 }
 
 Rgb AdaptiveDirect::treeSamples(Point& point) const {
-  prefetchBeyondLights(scene_, point.ofTree);
   SampleStream& stream = point.stream;
   stream.setDimension(point.firstDimension + 3 + 4 * AdaptiveSettings::kMostSamples);
   Rgb sum;

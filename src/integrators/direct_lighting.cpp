@@ -67,7 +67,7 @@ inline std::optional<SampledLight> DirectLighting::chooseLight(const LightSample
                                                                SampleStream& stream,
                                                                Vec2& u) const {
   auto chosen = distribution_->sample(at, stream.next1D());
-  if (chosen) prefetchLight(scene_, *chosen);
+  if (chosen) scene_.lightTable.prefetch(chosen->light);
   u = stream.next2D();  // while the light is fetched
   if (chosen && !(chosen->pmf > 0)) chosen.reset();
   return chosen;
@@ -88,7 +88,6 @@ const SampledLights& DirectLighting::drawCut(const LightSampleContext& at, float
   cut.clear();
   distribution_->sampleCut(at, choice, cut);
   prefetchLights(scene_, cut);
-  prefetchBeyondLights(scene_, cut);
   return cut;
 }
 

@@ -33,16 +33,9 @@ inline Vec2 nextInCut(Vec2 u) {
   return u - glm::floor(u);
 }
 
-inline void prefetchLight(const Scene& scene, const SampledLight& drawn) {
-  __builtin_prefetch(scene.lightTable[drawn.light].light);
-}
 /// Fetches the lights of a cut side by side; they are used one after the other.
 inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
-  for (const SampledLight& l : cut) prefetchLight(scene, l);
-}
-/// And then what is read beyond them.
-inline void prefetchBeyondLights(const Scene& scene, const SampledLights& cut) {
-  for (const SampledLight& l : cut) scene.lightTable[l.light].light->prefetch();
+  for (const SampledLight& l : cut) scene.lightTable.prefetch(l.light);
 }
 
 /// A sample of the light as seen from a point, with a density that can be divided by. None where

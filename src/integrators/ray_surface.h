@@ -4,6 +4,7 @@
 
 #include "base/material.h"
 #include "base/scene.h"
+#include "core/prefetch.h"
 #include "core/rejections.h"
 
 namespace lampyris {
@@ -38,7 +39,7 @@ inline SurfaceInteraction surfaceAt(const Geometry& geometry, const Ray& ray, co
 inline void prefetchSurface(const Geometry& geometry, const Hit& hit) {
   const Primitive& primitive = geometry.primitive(hit);
   primitive.shape->prefetch(hit.element);
-  __builtin_prefetch(primitive.material);
+  prefetchLine(primitive.material);
 }
 
 /// Lets `ray` (unit direction), which has found `at`, go on behind it to where it was to end.

@@ -57,7 +57,7 @@ class DiffuseAreaLight final : public Light, public HugePageObject {
   uint32_t elementCount() const override { return surface_.elementCount(); }
   bool isDelta() const override { return false; }
 
-  void prefetch() const override { __builtin_prefetch(&surface_); }
+  const void* beyond() const override { return &surface_; }
   std::optional<LightSample> sample(uint32_t element, const Vec3& from,
                                     const Vec2& u) const override {
     std::optional<LightSample> out;

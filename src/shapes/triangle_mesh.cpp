@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/frame.h"
+#include "core/prefetch.h"
 #include "core/rejections.h"
 #include "core/sampling.h"
 #include "shapes/parallelogram.h"
@@ -192,7 +193,7 @@ void TriangleMesh::surface(uint32_t element, const ShapeHit& hit, const Ray& ray
   const Corners c = corners(element);
   // All that lies elsewhere at once: waiting for one after the other takes as long as the rest.
   if (!data_.normals.empty())
-    for (size_t i = 0; i < 3; ++i) __builtin_prefetch(&data_.normals[c.index[i]]);
+    for (size_t i = 0; i < 3; ++i) prefetchLine(&data_.normals[c.index[i]]);
   const Vec3 b(1 - hit.uv.x - hit.uv.y, hit.uv.x, hit.uv.y);
   out.p = c.point(b);
   out.pError = c.pointError(b);

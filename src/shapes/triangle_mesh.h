@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/shape.h"
+#include "core/prefetch.h"
 
 namespace lampyris {
 
@@ -36,7 +37,7 @@ class TriangleMesh final : public Shape {
   /// For tests and callers without a ray tracer; in double precision.
   std::optional<ShapeHit> intersect(uint32_t element, const Ray& ray) const override;
   void prefetch(uint32_t element) const override {
-    __builtin_prefetch(&data_.indices[3 * static_cast<size_t>(element)]);
+    prefetchLine(&data_.indices[3 * static_cast<size_t>(element)]);
   }
   void surface(uint32_t element, const ShapeHit& hit, const Ray& ray, SurfaceDetail detail,
                SurfaceInteraction& out) const override;
