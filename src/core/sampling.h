@@ -31,6 +31,11 @@ inline Vec2 circlePoint(float turns) {
   return {sign * (odd ? -p.y : p.x), sign * (odd ? p.x : p.y)};
 }
 
+/// With the density e^−x. In double precision: its logarithm is faster than log1p of a float.
+inline float sampleExponential(float u) {
+  return static_cast<float>(-std::log(1 - static_cast<double>(u)));
+}
+
 /// A point of the unit disk, area-preserving and continuous (Shirley and Chiu 1997).
 inline Vec2 sampleConcentricDisk(const Vec2& u) {
   const Vec2 p = 2.f * u - 1.f;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "core/sampling.h"
 #include "media/coefficients.h"
 #include "media/density_grid.h"
 #include "media/henyey_greenstein.h"
@@ -82,7 +83,7 @@ class HeterogeneousMedium final : public Medium {
       const float majorant = most_ * bound;
       float t = t0;
       while (majorant > 0) {
-        t -= std::log1p(-numbers.next()) / majorant;
+        t += sampleExponential(numbers.next()) / majorant;
         if (!(t < t1)) break;
         ++steps;
         const float density = std::min(grid_.density(ray.at(t)), bound);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A medium that is the same everywhere. Distances are drawn in proportion to the transmittance of
 // one channel; the weight is that of the mixture over the channels, as in pbrt-v3.
+#include "core/sampling.h"
 #include "media/coefficients.h"
 #include "media/henyey_greenstein.h"
 
@@ -16,7 +17,7 @@ class HomogeneousMedium final : public Medium {
   MediumSample sample(const Ray& ray, NumberSequence& numbers, TrackingCounts&) const override {
     const float channel = 3 * numbers.next();
     const float sigma = channel < 1 ? extinction_.r : channel < 2 ? extinction_.g : extinction_.b;
-    const float t = -std::log1p(-numbers.next()) / sigma;  // σ = 0: infinite or, by 0/0, NaN
+    const float t = sampleExponential(numbers.next()) / sigma;  // σ = 0: infinite or, by 0/0, NaN
     MediumSample s;
     s.scatters = t < ray.tMax;
     const Rgb left = transmittanceOver(s.scatters ? t : ray.tMax);

@@ -35,6 +35,15 @@ TEST(Sampling, DiskIsUniform) {
     EXPECT_NEAR(glm::length(sampleConcentricDisk(u)), 1, 1e-5);
 }
 
+TEST(Sampling, ExponentialsInvertTheirDistribution) {
+  EXPECT_EQ(sampleExponential(0), 0);
+  for (const float u : {0x1p-40f, 0x1p-24f, 1e-3f, 0.5f, 0.999f, kOneMinusEpsilon}) {
+    const auto exact = static_cast<double>(-std::log1p(-static_cast<long double>(u)));
+    // What the logarithm of a double near 1 has lost where it is tiny.
+    EXPECT_NEAR(static_cast<double>(sampleExponential(u)), exact, 1e-7 * exact + 2e-16) << u;
+  }
+}
+
 TEST(Sampling, DirectionsMatchTheirDensities) {
   test::DirectionTest t;
   t.sample = [](const Vec2& u, float, Vec3& w) { return w = sampleCosineHemisphere(u), true; };
