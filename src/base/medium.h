@@ -45,6 +45,8 @@ class PhaseFunction {
   virtual float p(const Vec3& wo, const Vec3& wi) const = 0;
   /// A direction with exactly that density.
   virtual Vec3 sample(const Vec3& wo, const Vec2& u) const = 0;
+  /// True only if p() is the same for all directions.
+  virtual bool isIsotropic() const { return false; }
 };
 
 /// Where light is scattered along a ray, or that it is not.

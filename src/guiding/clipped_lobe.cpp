@@ -122,9 +122,9 @@ float lobePower(int level, const Vec3& axis, const Vec3& w) {
 }
 
 Vec3 sampleLobe(int level, const Vec3& axis, const Vec2& u) {
-  // cos = (1 − u)^(1/(n+1)); 1 − cos keeps its digits where lobes are narrow.
-  const auto n = static_cast<float>(lobeExponent(level));
-  const float x = -std::expm1(std::log1p(-u.x) / (n + 1));
+  // cos = (1 − u)^(1/(n+1)); in double precision 1 − cos has digits left where lobes are narrow.
+  const double n = lobeExponent(level);
+  const auto x = static_cast<float>(1 - std::exp(std::log(1 - static_cast<double>(u.x)) / (n + 1)));
   const float sine = std::sqrt(std::max(0.f, x * (2 - x)));
   const Frame frame = Frame::fromZ(axis);
   return normalize(frame.toWorld(sphericalDirection(sine, 1 - x, 2 * kPi * u.y)));

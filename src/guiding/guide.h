@@ -29,6 +29,9 @@ class DirectionWeight {
  public:
   /// Luminance of BSDF × |cos|, or of the phase function; ≥ 0.
   virtual float weight(const Vec3& wi) const = 0;
+  /// weight() where it is the same for all directions; at a surface: over the cosine, and 0 below.
+  /// < 0 where it varies.
+  virtual float even() const { return -1; }
 
  protected:
   ~DirectionWeight() = default;

@@ -1,95 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guiding/lobe_mixture.h"
 
-#include <algorithm>
-#include <experimental/simd>
-
 namespace lampyris {
 
-namespace {
-
-namespace stdx = std::experimental;
-constexpr size_t kLanes = 4;
-using Floats = stdx::simd<float, stdx::simd_abi::deduce_t<float, kLanes>>;
-using Doubles = stdx::rebind_simd_t<double, Floats>;
-
-Floats floats(const float* from) { return Floats(from, stdx::element_aligned); }
-Doubles doubles(const float* from) { return stdx::static_simd_cast<Doubles>(floats(from)); }
-
-}  // namespace
-
-bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scattering) {
-  n_ = point.n;
-  front_.fill(cache_.find(point.p, point.n), point.n, scattering);
-  const bool transmits = point.onSurface() && point.transmits;
-  back_.fill(transmits ? cache_.find(point.p, -point.n) : SignificanceCache::Lobes(), -point.n,
-             scattering);
-  share_ = 1 / scattered();
-  return scattered() > 0 && std::isfinite(share_);
+void LobeMixture::Side::take(const LobeSide& side, const LobeBlock* of) {
+  static_cast<LobeSide&>(*this) = side;
+  blocks = of;
 }
 
 /// Takes the lobes that count above a plane with normal `n` (zero: everywhere).
-void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, const Vec3& n,
-                             const DirectionWeight& at) {
-  total = 0;
-  count = 0;
-  mostSquarings = 0;
-  // Equal but for rounding: V is known.
-  const bool samePlane = lengthSquared(n - cell.n) < 1e-13f;
+template <class Weight>
+void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& n,
+                             const Weight& weightOf) {
+  take({}, own.data());
   for (const SignificanceCache::Lobe& r : cell.lobes) {
     const float tilt = n == Vec3(0) ? 1.f : dot(r.axis, n);
     if (!(tilt > 0)) continue;
-    const float w = at.weight(r.axis) * r.flux;
+    const float w = weightOf(r.axis, tilt) * r.flux;
     if (!(w > 0) || !std::isfinite(w)) continue;
-    total += w;
-    x[count] = r.axis.x, y[count] = r.axis.y, z[count] = r.axis.z;
-    level[count] = r.level;
-    factors[count] = static_cast<float>(lobeFactors(r.level));
-    squarings[count] = static_cast<float>(lobeSquarings(r.level));
-    mostSquarings = std::max(mostSquarings, lobeSquarings(r.level));
-    weight[count] = w;
-    normalisation[count] = w * (samePlane ? r.inverse : inverseClippedLobe(r.level, tilt));
-    ++count;
+    add(own.data(), r.axis, r.level, w, samePlane ? r.inverse : inverseClippedLobe(r.level, tilt));
   }
-  for (size_t i = count; i % kLanes != 0; ++i)
-    x[i] = y[i] = z[i] = normalisation[i] = factors[i] = squarings[i] = 0;
 }
 
-/// As a sum over lobePower(), a few lobes at a time.
-double LobeMixture::Side::sum(const Vec3& wi) const {
-  Doubles sum = 0;
-  for (size_t i = 0; i < count; i += kLanes) {
-    const Floats dx = wi.x - floats(&x[i]), dy = wi.y - floats(&y[i]), dz = wi.z - floats(&z[i]);
-    const Doubles chord2 = stdx::static_simd_cast<Doubles>(dx * dx + dy * dy + dz * dz);
-    Doubles c = 1 - 0.5 * chord2;
-    stdx::where(c < 0, c) = 0;
-    const Doubles first = doubles(&factors[i]), left = doubles(&squarings[i]);
-    Doubles power = c;
-    stdx::where(first > 1.5, power) *= c;
-    stdx::where(first > 2.5, power) *= c;
-    for (int done = 0; done < mostSquarings; ++done)
-      stdx::where(left > static_cast<double>(done), power) *= Doubles(power);
-    sum += doubles(&normalisation[i]) * power;
+bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scattering) {
+  n_ = point.n;
+  const SignificanceCache::Lobes cell = cache_.find(point.p, point.n);
+  const float even = scattering.even();
+  // Equal but for rounding: what the cell holds ready is right.
+  const bool samePlane = lengthSquared(point.n - cell.n) < 1e-13f;
+  static_cast<LobeSide&>(back_) = {};
+  if (even >= 0) {
+    if (samePlane)
+      front_.take(cell.even, cell.blocks);
+    else
+      front_.fill(cell, false, point.n, [](const Vec3&, float tilt) { return tilt; });
+    scattered_ = even * front_.total;
+  } else {
+    const auto weight = [&](const Vec3& axis, float) { return scattering.weight(axis); };
+    front_.fill(cell, samePlane, point.n, weight);
+    if (point.onSurface() && point.transmits)
+      back_.fill(cache_.find(point.p, -point.n), false, -point.n, weight);
+    scattered_ = front_.total + back_.total;
   }
-  return stdx::reduce(sum);
+  share_ = 1 / (front_.total + back_.total);
+  return scattered_ > 0 && std::isfinite(scattered_) && std::isfinite(share_);
 }
 
 Vec3 LobeMixture::sample(float u, const Vec2& v, NumberSequence& more) const {
-  float left = u * scattered();
-  const auto drawn = [&](const Side& side, const Vec3& n) {
-    size_t i = 0;
-    for (; i + 1 < side.count && left >= side.weight[i]; ++i) left -= side.weight[i];
-    return n == Vec3(0) ? sampleLobe(side.level[i], side.axis(i), v)
-                        : sampleClippedLobe(side.level[i], side.axis(i), n, v, more);
-  };
-  if (back_.count == 0 || left < front_.total) return drawn(front_, n_);
-  left -= front_.total;
-  return drawn(back_, -n_);
+  const float at = u * (front_.total + back_.total);
+  if (back_.count == 0 || at < front_.total) return front_.sample(front_.blocks, at, n_, v, more);
+  return back_.sample(back_.blocks, at - front_.total, -n_, v, more);
 }
 
 float LobeMixture::pdf(const Vec3& wi) const {
   const float side = n_ == Vec3(0) ? 1.f : dot(wi, n_);
-  const double sum = side > 0 ? front_.sum(wi) : side < 0 ? back_.sum(wi) : 0.;
+  const double sum = side > 0   ? front_.sum(front_.blocks, wi)
+                     : side < 0 ? back_.sum(back_.blocks, wi)
+                                : 0.;
   return static_cast<float>(sum * static_cast<double>(share_));
 }
 

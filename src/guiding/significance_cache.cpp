@@ -7,14 +7,14 @@
 // 12. The records of a cell of the hash are used together, in place of the N_cache nearest ones: to
 // search those took five times as long as everything else at a vertex, and single lobes near to
 // each other cover a hemisphere with gaps. Cells are divided where there are many samples. Cost a
-// look-up: a probe of the hash, up to six steps down a tree, the BSDF for each lobe.
+// look-up: a probe of the hash, up to six steps down a tree, and where the BSDF varies, it for each
+// lobe.
 #include "guiding/significance_cache.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "core/hash.h"
 #include "core/parallel.h"
 #include "guiding/lobe_mixture.h"
 
@@ -22,7 +22,8 @@ namespace lampyris {
 
 namespace {
 
-float usableSize(float size) { return size > 0 && std::isfinite(size) ? size : 1.f; }
+/// With an inverse that is a float, too.
+float usableSize(float size) { return size > 1e-30f && size < 1e30f ? size : 1.f; }
 
 /// Which of the six faces of a cube a normal points to; 6 for none.
 uint64_t facing(const Vec3& n) {
@@ -58,7 +59,8 @@ void SignificanceSettings::declare(Declaration& d) {
 SignificanceCache::SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene)
     : settings_(settings),
       origin_(scene.empty() ? Vec3(0) : scene.min),
-      size_(usableSize(settings.radius * scene.diagonal())) {}
+      size_(usableSize(settings.radius * scene.diagonal())),
+      invSize_(1 / size_) {}
 
 std::unique_ptr<LocalGuide> SignificanceCache::makeLocal() const {
   return std::make_unique<LobeMixture>(*this);
@@ -67,12 +69,13 @@ std::unique_ptr<LocalGuide> SignificanceCache::makeLocal() const {
 SignificanceCache::Root SignificanceCache::rootOf(const Vec3& p, const Vec3& n) const {
   // Far beyond, in endless media, all is one cell. Shifted by a third of a cell, so that walls on
   // the scene's bounds do not lie on the cells' faces.
-  constexpr float kFarthest = 1e6f;
-  const Vec3 x = (p - origin_) / size_ + 1 / 3.f;
+  constexpr int kBits = 20;
+  constexpr float kFarthest = (1 << (kBits - 1)) - 1;
+  const Vec3 x = (p - origin_) * invSize_ + 1 / 3.f;
   const Vec3 cell = glm::floor(glm::clamp(x, -kFarthest, kFarthest));
   uint64_t key = facing(n);
   for (int axis = 0; axis < 3; ++axis)
-    key = hashCombine(key, static_cast<uint64_t>(static_cast<int64_t>(cell[axis])));
+    key = key << kBits | static_cast<uint64_t>(static_cast<int64_t>(cell[axis] + kFarthest));
   return {key, origin_ + (cell + (0.5f - 1 / 3.f)) * size_};
 }
 
@@ -80,7 +83,7 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
   if (slots_.empty()) return {};
   const Root root = rootOf(p, n);
   const size_t mask = slots_.size() - 1;
-  size_t slot = root.key & mask;
+  size_t slot = slotOf(root.key);
   while (slots_[slot].root != 0 && slots_[slot].key != root.key) slot = (slot + 1) & mask;
   if (slots_[slot].root == 0) return {};
   const Node* node = &nodes_[slots_[slot].root - 1];
@@ -91,7 +94,10 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
     if (child == CellTree::kNoChild) break;
     node = &nodes_[static_cast<size_t>(child)];
   }
-  return {{lobes_.data() + node->first, node->count}, node->n};
+  return {{lobes_.data() + node->first, node->count},
+          node->n,
+          node->even,
+          blocks_.data() + node->firstBlock};
 }
 
 void SignificanceCache::learn(std::span<const GuideSample> samples) {
@@ -153,23 +159,36 @@ void SignificanceCache::endPass() {
 void SignificanceCache::freeze() {
   nodes_.clear();
   lobes_.clear();
+  blocks_.clear();
   slots_.assign(std::bit_ceil(2 * trees_.size() + 1), {});
   const size_t mask = slots_.size() - 1;
   for (size_t t = 0; t < trees_.size(); ++t) {
     const auto first = static_cast<int32_t>(nodes_.size());
-    size_t slot = roots_[t].key & mask;
+    size_t slot = slotOf(roots_[t].key);
     while (slots_[slot].root != 0) slot = (slot + 1) & mask;
     slots_[slot] = {roots_[t].key, static_cast<uint32_t>(first) + 1};
     for (const CellTree::Node& n : trees_[t].nodes()) {
-      Node flat{static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal(), n.children};
+      Node flat{n.children, static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal()};
       for (int32_t& child : flat.children)
         if (child != CellTree::kNoChild) child += first;
       if (n.cell.pays())
         for (const SignificanceRecord& r : n.cell.records())
           lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
       flat.count = static_cast<uint32_t>(lobes_.size()) - flat.first;
+      freezeEven(flat);
       nodes_.push_back(flat);
     }
+  }
+}
+
+void SignificanceCache::freezeEven(Node& node) {
+  node.firstBlock = static_cast<uint32_t>(blocks_.size());
+  blocks_.resize(blocks_.size() + LobeSide::blocksOf(node.count));
+  for (size_t i = node.first; i < lobes_.size(); ++i) {
+    const Lobe& r = lobes_[i];
+    const float w = (node.n == Vec3(0) ? 1.f : dot(r.axis, node.n)) * r.flux;
+    if (w > 0 && std::isfinite(w))
+      node.even.add(&blocks_[node.firstBlock], r.axis, r.level, w, r.inverse);
   }
 }
 
@@ -221,7 +240,8 @@ bool SignificanceCache::pays() const {
 
 size_t SignificanceCache::memory() const {
   size_t bytes = slots_.capacity() * sizeof(Slot) + nodes_.capacity() * sizeof(Node) +
-                 lobes_.capacity() * sizeof(Lobe) + treeAt_.size() * 32;
+                 lobes_.capacity() * sizeof(Lobe) + blocks_.capacity() * sizeof(LobeBlock) +
+                 treeAt_.size() * 32;
   for (const CellTree& t : trees_) bytes += t.memory();
   return bytes;
 }

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "core/bounds.h"
+#include "core/hash.h"
 #include "core/parameters.h"
 #include "guiding/cell_tree.h"
+#include "guiding/lobe_side.h"
 #include "guiding/photon_tree.h"
 
 namespace lampyris {
@@ -37,6 +39,9 @@ class SignificanceCache final : public Guide {
   struct Lobes {
     std::span<const Lobe> lobes;
     Vec3 n{0};  ///< as of a surface in the cell; most points of a cell share it
+    /// Weighed and clipped for a diffuse surface of that normal, or for an isotropic medium.
+    LobeSide even{};
+    const LobeBlock* blocks = nullptr;
   };
 
   SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene);
@@ -62,25 +67,31 @@ class SignificanceCache final : public Guide {
 
  private:
   /// Of a tree, flat for look-ups.
-  struct Node {
+  struct alignas(64) Node {
+    CellTree::Children children;    ///< indices in nodes_
     uint32_t first = 0, count = 0;  ///< of lobes_
     Vec3 n{0};
-    CellTree::Children children;  ///< indices in nodes_
+    LobeSide even{};
+    uint32_t firstBlock = 0;  ///< of blocks_
   };
+  static_assert(sizeof(Node) == 64);
   struct Slot {
     uint64_t key = 0;
     uint32_t root = 0;  ///< index in nodes_ + 1; 0: empty
   };
   struct Root {
-    uint64_t key = 0;
+    uint64_t key = 0;  ///< the cell's numbers and which way it faces, exactly
     Vec3 centre{0};
   };
   Root rootOf(const Vec3& p, const Vec3& n) const;
+  size_t slotOf(uint64_t key) const { return mixBits(key) & (slots_.size() - 1); }
   void freeze();
+  /// Makes Lobes::even of the node's lobes, the last ones.
+  void freezeEven(Node& node);
 
   SignificanceSettings settings_;
   Vec3 origin_;
-  float size_;
+  float size_, invSize_;
   std::vector<CellTree> trees_;
   std::vector<Root> roots_;                        ///< of the trees
   std::unordered_map<uint64_t, uint32_t> treeAt_;  ///< by key
@@ -89,6 +100,7 @@ class SignificanceCache final : public Guide {
   std::vector<Slot> slots_;  ///< a power of two, at most half full
   std::vector<Node> nodes_;
   std::vector<Lobe> lobes_;
+  std::vector<LobeBlock> blocks_;
   uint64_t learned_ = 0;
 };
 

@@ -17,10 +17,12 @@ class ScatteringPoint final : public DirectionWeight {
   Rgb scattered(const Vec3& wi) const {
     return bsdf_ ? bsdf_->f(wo_, wi) * bsdf_->absCosTheta(wi) : Rgb(phase_->p(wo_, wi));
   }
-  float weight(const Vec3& wi) const override {
-    if (!bsdf_ || !bsdf_->isDiffuse() || bsdf_->transmits()) return scattered(wi).luminance();
-    if (diffuse_ < 0) diffuse_ = bsdf_->f(wo_, faceForward(bsdf_->frame().z, wo_)).luminance();
-    return diffuse_ * bsdf_->absCosTheta(wi);
+  float weight(const Vec3& wi) const override { return scattered(wi).luminance(); }
+  /// Of rough matte surfaces, which vary a little, what they scatter straight up.
+  float even() const override {
+    if (phase_) return phase_->isIsotropic() ? phase_->p(wo_, wo_) : -1;
+    if (!bsdf_->isDiffuse() || bsdf_->transmits()) return -1;
+    return bsdf_->f(wo_, faceForward(bsdf_->frame().z, wo_)).luminance();
   }
   float pdf(const Vec3& wi) const { return bsdf_ ? bsdf_->pdf(wo_, wi) : phase_->p(wo_, wi); }
   const Bsdf* bsdf() const { return bsdf_; }
@@ -31,7 +33,6 @@ class ScatteringPoint final : public DirectionWeight {
   const Bsdf* bsdf_ = nullptr;
   const PhaseFunction* phase_ = nullptr;
   Vec3 wo_;
-  mutable float diffuse_ = -1;  ///< luminance of a BSDF that hardly varies; < 0: not known yet
 };
 
 /// A direction drawn from a DirectionMixture.

@@ -21,6 +21,7 @@ class HenyeyGreenstein final : public PhaseFunction {
     return (1 - a) * (1 + a) / (4 * kPi * d * std::sqrt(d));
   }
 
+  bool isIsotropic() const override { return g_ == 0; }
   Vec3 sample(const Vec3& wo, const Vec2& u) const override {
     const float cosine = deflection(u.x);  // to −wo
     const Frame frame = Frame::fromZ(-wo);

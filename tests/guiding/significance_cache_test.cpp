@@ -16,13 +16,16 @@ const Bounds3 kUnitBox(Vec3(0), Vec3(1));
 
 class Even final : public DirectionWeight {
  public:
-  explicit Even(const Vec3& n) : n_(n) {}
+  /// `says`: whether it tells that it is even.
+  explicit Even(const Vec3& n, bool says = false) : n_(n), says_(says) {}
   float weight(const Vec3& wi) const override {
-    return n_ == Vec3(0) ? 1 : std::max(0.f, dot(wi, n_));
+    return 0.3f * (n_ == Vec3(0) ? 1 : std::max(0.f, dot(wi, n_)));
   }
+  float even() const override { return says_ ? 0.3f : -1.f; }
 
  private:
   Vec3 n_;
+  bool says_;
 };
 
 /// Teaches a cache the radiance `light(w)` at random points of a plane with normal `n` (0: of a
@@ -136,6 +139,38 @@ TEST(SignificanceCache, MixtureSamplingMatchesItsPdf) {
       test.pdf = [&](const Vec3& w) { return static_cast<double>(local->pdf(w)); };
       EXPECT_EQ(directionChiSquareTest(test), "") << volume << transmits;
     }
+}
+
+TEST(SignificanceCache, WhatCellsHoldReadyIsWhatPointsWouldFind) {
+  const Vec3 tilted = normalize(Vec3(0.02f, -0.01f, 1));  // another plane than the cell's
+  for (const Vec3& learned : {kUp, Vec3(0)})
+    for (const Vec3& n : {learned, learned == Vec3(0) ? learned : tilted}) {
+      SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
+      teach(cache, learned, twoPatches, 4);
+      const auto ready = cache.makeLocal(), found = cache.makeLocal();
+      ASSERT_TRUE(ready->moveTo({Vec3(0.4f), n, false}, Even(n, true)));
+      ASSERT_TRUE(found->moveTo({Vec3(0.4f), n, false}, Even(n)));
+      EXPECT_NEAR(ready->scattered() / found->scattered(), 1, 1e-5);
+      for (uint64_t i = 0; i < 1000; ++i) {
+        const Vec3 w = sampleUniformSphere({uniform(i, 0, 0), uniform(i, 0, 1)});
+        EXPECT_NEAR(ready->pdf(w), found->pdf(w), 1e-5f * found->pdf(w));
+        const float u = uniform(i, 0, 2);
+        const Vec2 v(uniform(i, 0, 3), uniform(i, 0, 4));
+        NumberSequence a(i), b(i);
+        EXPECT_NEAR(length(ready->sample(u, v, a) - found->sample(u, v, b)), 0, 1e-5) << i;
+      }
+    }
+}
+
+TEST(SignificanceCache, PointsThatScatterNothingHaveNoGuide) {
+  class Black final : public DirectionWeight {
+   public:
+    float weight(const Vec3&) const override { return 0; }
+    float even() const override { return 0; }
+  };
+  SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
+  teach(cache, kUp, twoPatches, 4);
+  EXPECT_FALSE(cache.makeLocal()->moveTo({Vec3(0.4f), kUp, false}, Black()));
 }
 
 TEST(SignificanceCache, IsTheSameForAnyNumberOfThreads) {

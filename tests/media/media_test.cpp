@@ -37,6 +37,7 @@ TEST(HenyeyGreenstein, IsNormalisedAndSampledExactly) {
   const Vec3 wo = normalize(Vec3(0.3f, -0.5f, 0.7f));
   for (const float g : {-0.9f, -0.3f, 0.f, 0.0005f, 0.4f, 0.85f}) {
     const HenyeyGreenstein phase(g);
+    EXPECT_EQ(phase.isIsotropic(), g == 0);
     DirectionTest test;
     test.sample = [&](const Vec2& u, float, Vec3& w) { return w = phase.sample(wo, u), true; };
     test.pdf = [&](const Vec3& w) { return static_cast<double>(phase.p(wo, w)); };
