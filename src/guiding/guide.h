@@ -49,6 +49,8 @@ struct GuideSample {
   /// Luminance of BSDF × |cos| (or phase function) × all light found that way, with the share of
   /// direct light that is not left to light sampling.
   float gain = 0;
+  /// Whether light sampling was tried there, and whether light arrived.
+  bool lightTried = false, lightFound = false;
 };
 
 /// A guide's distribution at one point; one object serves a thread for all its points.
@@ -63,6 +65,8 @@ class LocalGuide {
   virtual float pdf(const Vec3& wi) const = 0;
   /// Luminance that the point scatters of the light that is known; 0: not known.
   virtual float scattered() const { return 0; }
+  /// In (0, 1]: the part of light samples that is worth taking, fewer where light hardly arrives.
+  virtual float lightWorth() const { return 1; }
 };
 
 /// Frozen while a pass is rendered, changed by learn() between passes only.

@@ -26,6 +26,7 @@ bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scatter
   n_ = point.n;
   const SignificanceCache::Lobes cell = cache_.find(point.p, point.n);
   const float even = scattering.even();
+  lightWorth_ = cell.lightWorth;
   // Equal but for rounding: what the cell holds ready is right.
   const bool samePlane = lengthSquared(point.n - cell.n) < 1e-13f;
   static_cast<LobeSide&>(back_) = {};

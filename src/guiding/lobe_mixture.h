@@ -17,6 +17,7 @@ class LobeMixture final : public LocalGuide {
   Vec3 sample(float u, const Vec2& v, NumberSequence& more) const override;
   float pdf(const Vec3& wi) const override;
   float scattered() const override { return scattered_; }
+  float lightWorth() const override { return lightWorth_; }
 
  private:
   /// Lobes on one side of a surface, or of a medium.
@@ -34,7 +35,7 @@ class LobeMixture final : public LocalGuide {
 
   const SignificanceCache& cache_;
   Vec3 n_{0};
-  float scattered_ = 0;
+  float scattered_ = 0, lightWorth_ = 1;
   float share_ = 0;    ///< of a lobe in the mixture, over its weight
   Side front_, back_;  ///< back_: of what is transmitted
 };

@@ -38,7 +38,8 @@ RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(pare
 }
 
 void RecordCell::fade(double factor) {
-  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples})
+  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples,
+                      &lightTried_, &lightFound_})
     *sum *= factor;
   for (SignificanceRecord& r : records_) r.fade(factor);
 }
@@ -58,8 +59,8 @@ void RecordCell::countGain(const GuideSample& s, float guidePdf) {
 void RecordCell::save(ByteWriter& out) const {
   out.put(room_);
   out.put(normal_);
-  for (const double sum :
-       {s_, i_, i2_, moments_.own, moments_.mixed, moments_.samples, sinceFit_, nextFit_})
+  for (const double sum : {s_, i_, i2_, moments_.own, moments_.mixed, moments_.samples, lightTried_,
+                           lightFound_, sinceFit_, nextFit_})
     out.put(sum);
   out.put(records_);
 }
@@ -67,8 +68,8 @@ void RecordCell::save(ByteWriter& out) const {
 void RecordCell::restore(ByteReader& in) {
   in.get(room_);
   in.get(normal_);
-  for (double* sum :
-       {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples, &sinceFit_, &nextFit_})
+  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples,
+                      &lightTried_, &lightFound_, &sinceFit_, &nextFit_})
     in.get(*sum);
   in.get(records_);
 }
@@ -77,7 +78,15 @@ bool RecordCell::pays() const {
   return moments_.samples < kLeastGains || moments_.mixed < moments_.own;
 }
 
+double RecordCell::lightWorth() const {
+  constexpr double kLeastTries = 20, kLeast = 0.1, kTriesForOne = 4;
+  if (lightTried_ < kLeastTries) return 1;
+  return std::clamp(kTriesForOne * (lightFound_ + 0.5) / lightTried_, kLeast, 1.);
+}
+
 bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
+  lightTried_ += sample.lightTried;
+  lightFound_ += sample.lightFound;
   const double weight = std::min(
       static_cast<double>(sample.radiance) / static_cast<double>(sample.pdf), kLargestWeight);
   normal_ = sample.n;

@@ -41,6 +41,8 @@ class RecordCell {
   const Moments& moments() const { return moments_; }
   /// False where enough samples say that BSDFs alone would do better than with the lobes.
   bool pays() const;
+  /// In (0, 1]: the part of light samples that is worth taking, four for one that finds light.
+  double lightWorth() const;
 
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
@@ -57,6 +59,7 @@ class RecordCell {
   Vec3 normal_{0};
   double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares
   Moments moments_;
+  double lightTried_ = 0, lightFound_ = 0;
   double sinceFit_ = 0, nextFit_;
 };
 

@@ -97,7 +97,8 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
   return {{lobes_.data() + node->first, node->count},
           node->n,
           node->even,
-          blocks_.data() + node->firstBlock};
+          blocks_.data() + node->firstBlock,
+          static_cast<float>(node->lightWorth) * (1 / 255.f)};
 }
 
 void SignificanceCache::learn(std::span<const GuideSample> samples) {
@@ -176,13 +177,14 @@ void SignificanceCache::freeze() {
           lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
       flat.count = static_cast<uint32_t>(lobes_.size()) - flat.first;
       freezeEven(flat);
+      flat.lightWorth = static_cast<uint32_t>(n.cell.lightWorth() * 255 + 0.5) & 255;
       nodes_.push_back(flat);
     }
   }
 }
 
 void SignificanceCache::freezeEven(Node& node) {
-  node.firstBlock = static_cast<uint32_t>(blocks_.size());
+  node.firstBlock = static_cast<uint32_t>(blocks_.size()) & 0xffffff;
   blocks_.resize(blocks_.size() + LobeSide::blocksOf(node.count));
   for (size_t i = node.first; i < lobes_.size(); ++i) {
     const Lobe& r = lobes_[i];

@@ -42,6 +42,7 @@ class SignificanceCache final : public Guide {
     /// Weighed and clipped for a diffuse surface of that normal, or for an isotropic medium.
     LobeSide even{};
     const LobeBlock* blocks = nullptr;
+    float lightWorth = 1;  ///< see LocalGuide
   };
 
   SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene);
@@ -72,7 +73,8 @@ class SignificanceCache final : public Guide {
     uint32_t first = 0, count = 0;  ///< of lobes_
     Vec3 n{0};
     LobeSide even{};
-    uint32_t firstBlock = 0;  ///< of blocks_
+    uint32_t firstBlock : 24 = 0;   ///< of blocks_
+    uint32_t lightWorth : 8 = 255;  ///< in 1/255
   };
   static_assert(sizeof(Node) == 64);
   struct Slot {

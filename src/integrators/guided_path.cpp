@@ -25,7 +25,7 @@ constexpr double kFirstGuess = 8;
 struct GuidedPathParameters : PathSettings {
   std::string lightSampler;
   GuideSettings guide;
-  float ownShare = 0.4f;
+  float ownShare = 0.5f;
 
   void declare(Declaration& d) {
     PathSettings::declare(d);

@@ -58,9 +58,11 @@ struct VolumePathEstimator::Path {
   bool entersBelow = false;  ///< a transmitted direction leads below the surface; no guide knows
   bool below = false;        ///< it has
   bool ownNumbers = false;   ///< the sampler's numbers of this bounce are used up
-  const Primitive* surface = nullptr;  ///< of the last vertex; null in a medium
-  Vec3 normal{0, 0, 1};                ///< there
-  NumberSequence numbers{0};           ///< whatever the sampler's dimensions do not cover
+  bool lightTried = false, lightFound = false;  ///< by light sampling at the last vertex
+  float lightChance = 1;                        ///< of its having been tried
+  const Primitive* surface = nullptr;           ///< of the last vertex; null in a medium
+  Vec3 normal{0, 0, 1};                         ///< there
+  NumberSequence numbers{0};                    ///< whatever the sampler's dimensions do not cover
 
   void setDimension(uint32_t offset) {
     stream.setDimension(kFirstPathDimension +
@@ -305,7 +307,9 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
     if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
   }
   const DirectionMixture mixture(point, guide, guidance_.ownShare);
-  if (lighting_.hasLights() && !specular) path.radiance += lightAt(path, mixture, point);
+  path.lightTried = path.lightFound = false;
+  if (lighting_.hasLights() && !specular && triesLight(path, guide))
+    path.radiance += lightAt(path, mixture, point) * (1 / path.lightChance);
   if (guide ? !survivesByPromise(path, guide->scattered())
             : path.promise > 0 && !survivesByThroughput(path))
     return false;
@@ -354,6 +358,14 @@ void VolumePathEstimator::preferRare(Path& path, float& uc) {
   path.throughput /= uc < kPart ? kDensityLow : kDensity;
 }
 
+/// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
+/// has seen little of it arrive.
+bool VolumePathEstimator::triesLight(Path& path, const LocalGuide* guide) {
+  path.lightChance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
+  path.lightTried = !(path.lightChance < 1) || path.numbers.next() < path.lightChance;
+  return path.lightTried;
+}
+
 /// The medium of a ray that leaves the last vertex.
 const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w) const {
   return path.surface ? mediumBeyond(*path.surface, path.medium, w, path.normal) : path.medium;
@@ -370,6 +382,7 @@ Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
   const Rgb share = transmittance(scene_, unitShadowRay(path.from, path.ray.time, *drawn.light),
                                   mediumTowards(path, wi), path.numbers, path.state.rays);
   if (share.isBlack()) return Rgb();
+  path.lightFound = true;
   const float pdf = drawn.isDelta ? 0 : mixture.weighingPdf(point.pdf(wi));
   const float weight = DirectLighting::lightWeight(drawn, pdf);
   return path.throughput * drawn.light->radiance * scattered * share * (weight / drawn.density);
@@ -388,6 +401,8 @@ void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
   turn.throughput = path.throughput;
   turn.before = path.radiance;
   turn.scattered = d.scattered;
+  turn.sample.lightTried = path.lightTried;
+  turn.sample.lightFound = path.lightFound;
 }
 
 }  // namespace lampyris

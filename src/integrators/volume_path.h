@@ -64,6 +64,7 @@ class VolumePathEstimator final : public RadianceEstimator {
   bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
   Rgb lightAt(Path& path, const class DirectionMixture& mixture,
               const class ScatteringPoint& point) const;
+  static bool triesLight(Path& path, const LocalGuide* guide);
   static void preferRare(Path& path, float& uc);
   const Medium* mediumTowards(const Path& path, const Vec3& w) const;
   void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;

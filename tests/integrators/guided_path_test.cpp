@@ -56,6 +56,16 @@ void expectSameMean(const std::string& a, const std::string& b, const std::strin
   EXPECT_EQ(meanTest(difference, 0), "") << a << " against " << b;
 }
 
+/// A lamp in a box that is open above: all light comes from a spot on the ceiling.
+const std::string kUplight =
+    matte(0.7f) +
+    "ReverseOrientation\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 "
+    "5 4 7 6 0 4 5 0 5 1 1 5 6 1 6 2 2 6 7 2 7 3 3 7 4 3 4 0] \"point P\" [-2 -2 0 2 "
+    "-2 0 2 2 0 -2 2 0 -2 -2 2 2 -2 2 2 2 2 -2 2 2]\nReverseOrientation\nTranslate "
+    "1 1 1.5\nShape \"cylinder\" \"float radius\" 0.25 \"float zmin\" -0.1 "
+    "\"float zmax\" 0.35\nAreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n" +
+    square(0.15f);
+
 TEST(GuidedPath, HasTheMeanOfVolpath) {
   const std::string volpath = R"("volpath" "integer maxdepth" 6)";
   for (const std::string& world : {kRoom, kMist + kRoom}) {
@@ -68,6 +78,11 @@ TEST(GuidedPath, HasTheMeanOfVolpath) {
   expectSameMean(
       R"("guidedpath" "integer maxdepth" 6 "string guide" "photons" "integer photons" 3000)",
       volpath, kRoom, 32);
+}
+
+TEST(GuidedPath, HasTheMeanWhereLightIsTriedRarely) {
+  expectSameMean(R"("guidedpath" "integer maxdepth" 6)", R"("volpath" "integer maxdepth" 6)",
+                 kUplight, 256);
 }
 
 TEST(GuidedPath, WithoutAGuideItIsVolpath) {
@@ -88,18 +103,9 @@ TEST(GuidedPath, ImageDoesNotDependOnThreads) {
 }
 
 TEST(GuidedPath, GuidesWhereLightIsHardToFind) {
-  // A lamp in a box that is open above: all light comes from a spot on the ceiling.
-  const std::string uplight =
-      matte(0.7f) +
-      "ReverseOrientation\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 "
-      "5 4 7 6 0 4 5 0 5 1 1 5 6 1 6 2 2 6 7 2 7 3 3 7 4 3 4 0] \"point P\" [-2 -2 0 2 "
-      "-2 0 2 2 0 -2 2 0 -2 -2 2 2 -2 2 2 2 2 -2 2 2]\nReverseOrientation\nTranslate "
-      "1 1 1.5\nShape \"cylinder\" \"float radius\" 0.25 \"float zmin\" -0.1 "
-      "\"float zmax\" 0.35\nAreaLightSource \"diffuse\" \"rgb L\" [40 40 40]\n" +
-      square(0.15f);
   // Variance over seeds, pixel by pixel.
   const auto variance = [&](const std::string& integrator) {
-    const auto a = render(integrator, uplight, 1, 128), b = render(integrator, uplight, 2, 128);
+    const auto a = render(integrator, kUplight, 1, 128), b = render(integrator, kUplight, 2, 128);
     double sum = 0;
     for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return sum;
