@@ -169,22 +169,22 @@ void SignificanceCache::freeze() {
     while (slots_[slot].root != 0) slot = (slot + 1) & mask;
     slots_[slot] = {roots_[t].key, static_cast<uint32_t>(first) + 1};
     for (const CellTree::Node& n : trees_[t].nodes()) {
-      Node flat{n.children, static_cast<uint32_t>(lobes_.size()), 0, n.cell.normal()};
+      Node flat{n.children, static_cast<uint32_t>(lobes_.size()),
+                static_cast<uint32_t>(blocks_.size()), n.cell.normal()};
       for (int32_t& child : flat.children)
         if (child != CellTree::kNoChild) child += first;
       if (n.cell.pays())
         for (const SignificanceRecord& r : n.cell.records())
           lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
-      flat.count = static_cast<uint32_t>(lobes_.size()) - flat.first;
+      flat.count = static_cast<uint8_t>(lobes_.size() - flat.first);
       freezeEven(flat);
-      flat.lightWorth = static_cast<uint32_t>(n.cell.lightWorth() * 255 + 0.5) & 255;
+      flat.lightWorth = static_cast<uint8_t>(n.cell.lightWorth() * 255 + 0.5);
       nodes_.push_back(flat);
     }
   }
 }
 
 void SignificanceCache::freezeEven(Node& node) {
-  node.firstBlock = static_cast<uint32_t>(blocks_.size()) & 0xffffff;
   blocks_.resize(blocks_.size() + LobeSide::blocksOf(node.count));
   for (size_t i = node.first; i < lobes_.size(); ++i) {
     const Lobe& r = lobes_[i];

@@ -69,12 +69,13 @@ class SignificanceCache final : public Guide {
  private:
   /// Of a tree, flat for look-ups.
   struct alignas(64) Node {
-    CellTree::Children children;    ///< indices in nodes_
-    uint32_t first = 0, count = 0;  ///< of lobes_
+    CellTree::Children children;  ///< indices in nodes_
+    uint32_t first = 0;           ///< of lobes_
+    uint32_t firstBlock = 0;      ///< of blocks_
     Vec3 n{0};
     LobeSide even{};
-    uint32_t firstBlock : 24 = 0;   ///< of blocks_
-    uint32_t lightWorth : 8 = 255;  ///< in 1/255
+    uint8_t count = 0;         ///< of lobes_
+    uint8_t lightWorth = 255;  ///< in 1/255
   };
   static_assert(sizeof(Node) == 64);
   struct Slot {
