@@ -178,7 +178,7 @@ void SignificanceCache::freeze() {
           lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
       flat.count = static_cast<uint8_t>(lobes_.size() - flat.first);
       freezeEven(flat);
-      flat.lightWorth = static_cast<uint8_t>(n.cell.lightWorth() * 255 + 0.5);
+      flat.lightWorth = static_cast<uint8_t>(std::lround(n.cell.lightWorth() * 255));
       nodes_.push_back(flat);
     }
   }
