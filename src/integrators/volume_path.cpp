@@ -59,7 +59,6 @@ struct VolumePathEstimator::Path {
   bool below = false;        ///< it has
   bool ownNumbers = false;   ///< the sampler's numbers of this bounce are used up
   bool lightTried = false, lightFound = false;  ///< by light sampling at the last vertex
-  float lightChance = 1;                        ///< of its having been tried
   const Primitive* surface = nullptr;           ///< of the last vertex; null in a medium
   Vec3 normal{0, 0, 1};                         ///< there
   NumberSequence numbers{0};                    ///< whatever the sampler's dimensions do not cover
@@ -69,21 +68,6 @@ struct VolumePathEstimator::Path {
                         static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
   }
 };
-
-void GuidedMemory::finish(const Rgb& radiance) {
-  const auto positive = [](const Rgb& c) {  // 0/0 in channels that are lost
-    return Rgb(c.r > 0 ? c.r : 0.f, c.g > 0 ? c.g : 0.f, c.b > 0 ? c.b : 0.f);
-  };
-  for (const Turn& t : turns) {
-    GuideSample& s = samples.emplace_back(t.sample);
-    s.radiance = positive((radiance - t.before) / t.throughput).luminance();
-    s.gain = positive((radiance - t.before + t.direct) / t.throughput * t.scattered).luminance();
-    if (std::isfinite(s.radiance) && std::isfinite(s.gain)) continue;
-    samples.pop_back();
-    countRejection(Rejection::LearningSample);
-  }
-  turns.clear();
-}
 
 VolumePathEstimator::VolumePathEstimator(const Scene& scene, const PathSettings& settings,
                                          const LightDistribution* distribution,
@@ -307,9 +291,7 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
     if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
   }
   const DirectionMixture mixture(point, guide, guidance_.ownShare);
-  path.lightTried = path.lightFound = false;
-  if (lighting_.hasLights() && !specular && triesLight(path, guide))
-    path.radiance += lightAt(path, mixture, point) * (1 / path.lightChance);
+  if (lighting_.hasLights() && !specular) path.radiance += tryLight(path, mixture, point, guide);
   if (guide ? !survivesByPromise(path, guide->scattered())
             : path.promise > 0 && !survivesByThroughput(path))
     return false;
@@ -358,17 +340,19 @@ void VolumePathEstimator::preferRare(Path& path, float& uc) {
   path.throughput /= uc < kPart ? kDensityLow : kDensity;
 }
 
-/// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
-/// has seen little of it arrive.
-bool VolumePathEstimator::triesLight(Path& path, const LocalGuide* guide) {
-  path.lightChance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
-  path.lightTried = !(path.lightChance < 1) || path.numbers.next() < path.lightChance;
-  return path.lightTried;
-}
-
 /// The medium of a ray that leaves the last vertex.
 const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w) const {
   return path.surface ? mediumBeyond(*path.surface, path.medium, w, path.normal) : path.medium;
+}
+
+/// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
+/// has seen little of it arrive.
+Rgb VolumePathEstimator::tryLight(Path& path, const DirectionMixture& mixture,
+                                  const ScatteringPoint& point, const LocalGuide* guide) const {
+  const float chance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
+  path.lightFound = false;
+  path.lightTried = !(chance < 1) || path.numbers.next() < chance;
+  return path.lightTried ? lightAt(path, mixture, point) * (1 / chance) : Rgb();
 }
 
 Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,

@@ -3,31 +3,11 @@
 /// "volpath" and "guidedpath" share.
 #pragma once
 
-#include "guiding/guide.h"
 #include "integrators/direct_lighting.h"
+#include "integrators/guided_memory.h"
 #include "integrators/path_integrator.h"
 
 namespace lampyris {
-
-/// What a tile's paths leave for a guide to learn from, and the guide's place of work.
-class GuidedMemory final : public EstimatorMemory {
- public:
-  explicit GuidedMemory(std::unique_ptr<LocalGuide> local) : local(std::move(local)) {}
-
-  /// A direction that a path took: its radiance is what the path finds from there on.
-  struct Turn {
-    GuideSample sample;
-    Rgb throughput, before;   ///< after the turn; radiance of the path until then
-    Rgb scattered, direct{};  ///< there; found right behind it of light that is sampled as well
-  };
-  /// Ends a path: turns its turns into samples.
-  void finish(const Rgb& radiance);
-
-  std::unique_ptr<LocalGuide> local;
-  std::vector<Turn> turns;
-  std::vector<GuideSample> samples;
-  uint64_t lookups = 0, guided = 0, drawn = 0;
-};
 
 /// How a path is guided. `guide` null: not at all.
 struct Guidance {
@@ -62,9 +42,10 @@ class VolumePathEstimator final : public RadianceEstimator {
   bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
   bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
   bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
+  Rgb tryLight(Path& path, const class DirectionMixture& mixture,
+               const class ScatteringPoint& point, const LocalGuide* guide) const;
   Rgb lightAt(Path& path, const class DirectionMixture& mixture,
               const class ScatteringPoint& point) const;
-  static bool triesLight(Path& path, const LocalGuide* guide);
   static void preferRare(Path& path, float& uc);
   const Medium* mediumTowards(const Path& path, const Vec3& w) const;
   void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;

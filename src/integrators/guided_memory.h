@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "guiding/guide.h"
+#include "integrators/render_loop.h"
+
+namespace lampyris {
+
+/// What a tile's paths leave for a guide to learn from, and the guide's place of work.
+class GuidedMemory final : public EstimatorMemory {
+ public:
+  explicit GuidedMemory(std::unique_ptr<LocalGuide> local) : local(std::move(local)) {}
+
+  /// A direction that a path took: its radiance is what the path finds from there on.
+  struct Turn {
+    GuideSample sample;
+    Rgb throughput, before;   ///< after the turn; radiance of the path until then
+    Rgb scattered, direct{};  ///< there; found right behind it of light that is sampled as well
+  };
+  /// Ends a path: turns its turns into samples.
+  void finish(const Rgb& radiance);
+
+  std::unique_ptr<LocalGuide> local;
+  std::vector<Turn> turns;
+  std::vector<GuideSample> samples;
+  uint64_t lookups = 0, guided = 0, drawn = 0;
+};
+
+}  // namespace lampyris
