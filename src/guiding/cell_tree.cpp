@@ -112,17 +112,6 @@ void CellTree::endPass() {
   }
 }
 
-RecordCell::Moments CellTree::moments() const {
-  RecordCell::Moments sum;
-  for (const Node& n : nodes_) {
-    if (n.divided) continue;
-    RecordCell::Moments m = n.cell.moments();
-    if (!n.cell.pays()) m.mixed = m.own;
-    sum += m;
-  }
-  return sum;
-}
-
 void CellTree::save(ByteWriter& out) const {
   out.put(nodes_.size());
   for (const Node& n : nodes_) {

@@ -31,8 +31,6 @@ class CellTree {
     Children children;
   };
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Of all cells together; where lobes do not pay, of BSDFs alone.
-  RecordCell::Moments moments() const;
   size_t recordCount() const;
   size_t memory() const;
 

@@ -42,13 +42,8 @@ class DirectionWeight {
 struct GuideSample {
   Vec3 p{0}, n{0};  ///< as in GuidePoint, but n on the side of wi
   Vec3 wi{0};
-  float radiance = 0;   ///< luminance; finite, ≥ 0
-  float pdf = 0;        ///< by solid angle, with which wi was drawn; > 0
-  float ownPdf = 0;     ///< of the BSDF or phase function alone
-  float guidePdf = -1;  ///< of the guide alone; < 0: none was there
-  /// Luminance of BSDF × |cos| (or phase function) × all light found that way, with the share of
-  /// direct light that is not left to light sampling.
-  float gain = 0;
+  float radiance = 0;  ///< luminance; finite, ≥ 0
+  float pdf = 0;       ///< by solid angle, with which wi was drawn; > 0
   /// Whether light sampling was tried there, and whether light arrived.
   bool lightTried = false, lightFound = false;
 };
@@ -80,8 +75,6 @@ class Guide {
   /// threads; then, once a pass, endPass().
   virtual void learn(std::span<const GuideSample> samples) = 0;
   virtual void endPass() = 0;
-  /// False once it is clear that guiding helps next to nowhere.
-  virtual bool pays() const { return true; }
   virtual void report(Statistics& statistics) const = 0;
   /// What has been learned until the last endPass(), so that an equal guide goes on from it to the
   /// same bits. False: the bytes are not of such a guide, which must not be used then.

@@ -22,9 +22,6 @@ constexpr float kAlike = 0.8f;
 /// Bounds sample weights, so that no sum overflows: far beyond radiances that images hold.
 constexpr double kLargestWeight = 1e60;
 
-/// Samples that found light, before which nothing is said of what lobes save.
-constexpr double kLeastGains = 100;
-
 constexpr size_t kMostRecords = 32;
 
 }  // namespace
@@ -38,29 +35,14 @@ RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(pare
 }
 
 void RecordCell::fade(double factor) {
-  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples,
-                      &lightTried_, &lightFound_})
-    *sum *= factor;
+  for (double* sum : {&s_, &i_, &i2_, &lightTried_, &lightFound_}) *sum *= factor;
   for (SignificanceRecord& r : records_) r.fade(factor);
-}
-
-/// With g = BSDF × |cos| × light, the second moment under a density q is E[g² / (p q)].
-void RecordCell::countGain(const GuideSample& s, float guidePdf) {
-  const auto g = static_cast<double>(s.gain);
-  const auto own = static_cast<double>(s.ownPdf);
-  const double mixed = 0.5 * (own + static_cast<double>(guidePdf));
-  const double share = g / static_cast<double>(s.pdf) * g;
-  if (!(share > 0) || !(mixed > 0)) return;
-  moments_.samples += 1;
-  moments_.own += std::min(share / own, kLargestWeight);
-  moments_.mixed += std::min(share / mixed, kLargestWeight);
 }
 
 void RecordCell::save(ByteWriter& out) const {
   out.put(room_);
   out.put(normal_);
-  for (const double sum : {s_, i_, i2_, moments_.own, moments_.mixed, moments_.samples, lightTried_,
-                           lightFound_, sinceFit_, nextFit_})
+  for (const double sum : {s_, i_, i2_, lightTried_, lightFound_, sinceFit_, nextFit_})
     out.put(sum);
   out.put(records_);
 }
@@ -68,14 +50,9 @@ void RecordCell::save(ByteWriter& out) const {
 void RecordCell::restore(ByteReader& in) {
   in.get(room_);
   in.get(normal_);
-  for (double* sum : {&s_, &i_, &i2_, &moments_.own, &moments_.mixed, &moments_.samples,
-                      &lightTried_, &lightFound_, &sinceFit_, &nextFit_})
+  for (double* sum : {&s_, &i_, &i2_, &lightTried_, &lightFound_, &sinceFit_, &nextFit_})
     in.get(*sum);
   in.get(records_);
-}
-
-bool RecordCell::pays() const {
-  return moments_.samples < kLeastGains || moments_.mixed < moments_.own;
 }
 
 double RecordCell::lightWorth() const {
@@ -96,26 +73,24 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
   i2_ += weight * weight;
   sinceFit_ += 1;
   bool inserted = false;
-  if (weight > 0 || sample.gain > 0) {
+  if (weight > 0) {
     std::array<float, kMostRecords> predicted;
-    float total = 0, flux = 0;
+    float total = 0;
     bool known = false;
     for (size_t i = 0; i < records_.size(); ++i) {
       const SignificanceRecord& r = records_[i];
       const float power = lobePower(r.level(), r.direction(), sample.wi);
       predicted[i] = r.radiance() * power;
       total += predicted[i];
-      flux += r.flux();
       known = known || power > kKnown;
     }
-    if (flux > 0) countGain(sample, sample.guidePdf < 0 ? total / flux : sample.guidePdf);
     const float sphere = sample.n == Vec3(0) ? 4 * kPi : 2 * kPi;
     const float mean = static_cast<float>(std::min(meanFlux(), 1e30)) / sphere;
     const float sum = total + kBackground * mean;
-    if (weight > 0 && sum > 0)
+    if (sum > 0)
       for (size_t i = 0; i < records_.size(); ++i)
         records_[i].add(sample.wi, weight * static_cast<double>(predicted[i] / sum));
-    if (mayInsert && weight > 0 && significant && !known && sample.radiance > total &&
+    if (mayInsert && significant && !known && sample.radiance > total &&
         records_.size() < static_cast<size_t>(room_)) {
       records_.emplace_back(sample.p, sample.wi, weight).fit(s_);
       inserted = true;

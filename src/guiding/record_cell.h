@@ -32,15 +32,6 @@ class RecordCell {
   const Vec3& normal() const { return normal_; }
   /// Ĩ times 2π: mean weight of all samples, the flux of all directions.
   double meanFlux() const { return s_ > 0 ? i_ / s_ : 0; }
-  /// Second moments of what samples give to the image: as they would be from BSDFs alone, and from
-  /// an even mixture with the lobes; and how many found light.
-  struct Moments {
-    double own = 0, mixed = 0, samples = 0;
-    void operator+=(const Moments& o) { own += o.own, mixed += o.mixed, samples += o.samples; }
-  };
-  const Moments& moments() const { return moments_; }
-  /// False where enough samples say that BSDFs alone would do better than with the lobes.
-  bool pays() const;
   /// In (0, 1]: the part of light samples that is worth taking, four for one that finds light.
   double lightWorth() const;
 
@@ -50,7 +41,6 @@ class RecordCell {
  private:
   /// What was counted counts so much less.
   void fade(double factor);
-  void countGain(const GuideSample& sample, float guidePdf);
   void fit();
   void mergeAlike();
 
@@ -58,7 +48,6 @@ class RecordCell {
   std::vector<SignificanceRecord> records_;
   Vec3 normal_{0};
   double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares
-  Moments moments_;
   double lightTried_ = 0, lightFound_ = 0;
   double sinceFit_ = 0, nextFit_;
 };

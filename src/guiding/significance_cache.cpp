@@ -173,9 +173,8 @@ void SignificanceCache::freeze() {
                 static_cast<uint32_t>(blocks_.size()), n.cell.normal()};
       for (int32_t& child : flat.children)
         if (child != CellTree::kNoChild) child += first;
-      if (n.cell.pays())
-        for (const SignificanceRecord& r : n.cell.records())
-          lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+      for (const SignificanceRecord& r : n.cell.records())
+        lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
       flat.count = static_cast<uint8_t>(lobes_.size() - flat.first);
       freezeEven(flat);
       flat.lightWorth = static_cast<uint8_t>(std::lround(n.cell.lightWorth() * 255));
@@ -221,23 +220,11 @@ std::vector<LearnedDirection> SignificanceCache::directions() const {
   std::vector<LearnedDirection> found;
   for (const CellTree& t : trees_)
     for (const CellTree::Node& n : t.nodes()) {
-      if (n.divided || !n.cell.pays()) continue;
+      if (n.divided) continue;
       for (const SignificanceRecord& r : n.cell.records())
         found.push_back({r.position(), r.direction(), r.exponent(), r.radiance()});
     }
   return found;
-}
-
-/// Each tree counts by its samples, so that no rare bright one decides alone.
-bool SignificanceCache::pays() const {
-  constexpr double kWorthwhile = 0.08;
-  double all = 0, saved = 0;
-  for (const CellTree& t : trees_) {
-    const RecordCell::Moments m = t.moments();
-    all += m.samples;
-    if (m.mixed < m.own) saved += m.samples * (1 - m.mixed / m.own);
-  }
-  return !(saved < kWorthwhile * all);
 }
 
 size_t SignificanceCache::memory() const {

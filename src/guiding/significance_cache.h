@@ -52,7 +52,6 @@ class SignificanceCache final : public Guide {
   void seed(std::span<const GuidePhoton> photons);
   void learn(std::span<const GuideSample> samples) override;
   void endPass() override;
-  bool pays() const override;
   void report(Statistics& statistics) const override;
   std::string save() const override;
   bool restore(std::string_view bytes) override;

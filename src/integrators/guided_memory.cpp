@@ -12,8 +12,7 @@ void GuidedMemory::finish(const Rgb& radiance) {
   for (const Turn& t : turns) {
     GuideSample& s = samples.emplace_back(t.sample);
     s.radiance = positive((radiance - t.before) / t.throughput).luminance();
-    s.gain = positive((radiance - t.before + t.direct) / t.throughput * t.scattered).luminance();
-    if (std::isfinite(s.radiance) && std::isfinite(s.gain)) continue;
+    if (std::isfinite(s.radiance)) continue;
     samples.pop_back();
     countRejection(Rejection::LearningSample);
   }

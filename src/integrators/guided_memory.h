@@ -2,6 +2,7 @@
 #pragma once
 
 #include "guiding/guide.h"
+#include "integrators/guiding_gain.h"
 #include "integrators/render_loop.h"
 
 namespace lampyris {
@@ -14,8 +15,8 @@ class GuidedMemory final : public EstimatorMemory {
   /// A direction that a path took: its radiance is what the path finds from there on.
   struct Turn {
     GuideSample sample;
-    Rgb throughput, before;   ///< after the turn; radiance of the path until then
-    Rgb scattered, direct{};  ///< there; found right behind it of light that is sampled as well
+    Rgb throughput;  ///< after the turn
+    Rgb before;      ///< radiance of the path until then, and what is not to be learned
   };
   /// Ends a path: turns its turns into samples.
   void finish(const Rgb& radiance);
@@ -23,6 +24,7 @@ class GuidedMemory final : public EstimatorMemory {
   std::unique_ptr<LocalGuide> local;
   std::vector<Turn> turns;
   std::vector<GuideSample> samples;
+  GuidingGain gain;
   uint64_t lookups = 0, guided = 0, drawn = 0;
 };
 

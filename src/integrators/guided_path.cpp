@@ -17,7 +17,7 @@ namespace {
 
 /// Samples that a pass may leave to be learned from: bounds memory and time.
 constexpr double kSamplesPerPass = 1 << 18;
-/// 16 samples a pixel: a guide is not judged by less.
+/// 16 samples a pixel: a guide is not judged by what it did while it knew less.
 constexpr int kPassesBeforeRetiring = 5;
 /// Until a first pass has shown how many a path leaves.
 constexpr double kFirstGuess = 8;
@@ -78,6 +78,7 @@ double secondsNow() {
 void GuideTrainer::beginPass(const Pass& pass) {
   pass_ = pass;
   tiles_.resize(pass.tiles);
+  gains_.resize(pass.tiles);
   guidance_.use = !retired_;
   guidance_.collect = !retired_ && !pass.isLast && guide_.learns();
   const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
@@ -89,6 +90,8 @@ void GuideTrainer::beginPass(const Pass& pass) {
 void GuideTrainer::tileDone(size_t tile, RenderState& state) {
   auto& memory = static_cast<GuidedMemory&>(*state.memory);
   tiles_[tile] = std::move(memory.samples);
+  memory.gain.finish();
+  gains_[tile] = memory.gain;
   const std::lock_guard lock(mutex_);
   lookups_ += memory.lookups;
   guided_ += memory.guided;
@@ -97,6 +100,10 @@ void GuideTrainer::tileDone(size_t tile, RenderState& state) {
 
 void GuideTrainer::endPass() {
   ++passes_;
+  if (guidance_.use) {
+    gain_.fade();
+    for (const GuidingGain& tile : gains_) gain_ += tile;
+  }
   if (pass_.isLast) return;
   const double start = secondsNow();
   double samples = 0;
@@ -106,7 +113,7 @@ void GuideTrainer::endPass() {
     tile = {};
   }
   guide_.endPass();
-  retired_ = retired_ || (passes_ >= kPassesBeforeRetiring && !guide_.pays());
+  retired_ = retired_ || (passes_ >= kPassesBeforeRetiring && guide_.learns() && !gain_.pays());
   const double paths = pixels_ * std::max(1., std::floor(static_cast<double>(pass_.samples) /
                                                          static_cast<double>(guidance_.stride)));
   samplesPerPath_ = samples / paths;
@@ -118,6 +125,7 @@ std::string GuideTrainer::save() const {
   out.put(passes_);
   out.put(samplesPerPath_);
   out.put(retired_);
+  out.put(gain_);
   return out.bytes() + guide_.save();
 }
 
@@ -126,7 +134,8 @@ bool GuideTrainer::restore(std::string_view bytes) {
   in.get(passes_);
   in.get(samplesPerPath_);
   in.get(retired_);
-  constexpr size_t kOwn = sizeof passes_ + sizeof samplesPerPath_ + sizeof retired_;
+  in.get(gain_);
+  constexpr size_t kOwn = sizeof passes_ + sizeof samplesPerPath_ + sizeof retired_ + sizeof gain_;
   return in.ok() && guide_.restore(bytes.substr(kOwn));
 }
 
@@ -134,6 +143,7 @@ void GuideTrainer::report(Statistics& statistics) const {
   guide_.report(statistics);
   statistics.set("guide", "passes", passes_);
   statistics.set("guide", "retired", retired_ ? 1 : 0);
+  statistics.set("guide", "variance with the guide over that without", gain_.varianceRatio());
   statistics.set("guide", "look-ups", static_cast<double>(lookups_));
   statistics.set("guide", "share of directions with a guide",
                  drawn_ > 0 ? static_cast<double>(guided_) / static_cast<double>(drawn_) : 0);

@@ -40,11 +40,8 @@ struct VolumePathEstimator::Path {
   GuidedMemory* memory = nullptr;  ///< null: nothing guides, nothing learns
   bool learns = false;
 
-  Rgb radiance{}, throughput{1};
-  /// What the throughput would be, had the same way been drawn without a guide. Roulette goes by
-  /// it: a guide draws directions that matter more often, for which their throughput is smaller.
-  /// (By the larger of the two, so that it blows up no path that went against the guide.)
-  Rgb unguided{1};
+  PairedRadiance radiance;
+  Rgb throughput{1};
   float promise = 0;   ///< radiance to come at the first vertex of which a guide told it; 0: none
   float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
   int bounces = 0, interfaces = 0;
@@ -63,6 +60,11 @@ struct VolumePathEstimator::Path {
   Vec3 normal{0, 0, 1};                         ///< there
   NumberSequence numbers{0};                    ///< whatever the sampler's dimensions do not cover
 
+  /// Largest component of what the throughput would be, had the same way been drawn without a
+  /// guide.
+  float unguidedThroughput() const {
+    return throughput.maxComponent() * static_cast<float>(radiance.odds);
+  }
   void setDimension(uint32_t offset) {
     stream.setDimension(kFirstPathDimension +
                         static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
@@ -108,8 +110,9 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     if (!path.emissionAdded) addEmission(path, outside(path));
     break;
   }
-  if (path.learns) path.memory->finish(path.radiance);
-  return path.radiance;
+  if (path.learns) path.memory->finish(path.radiance.sum);
+  if (path.memory && guidance_.use) path.memory->gain.add(stream.address().pixel, path.radiance);
+  return path.radiance.sum;
 }
 
 /// Emission at the end of the path's ray, weighed where light sampling could have found it.
@@ -156,7 +159,6 @@ VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float 
   segment.tMax = tMax;
   const MediumSample s = sampleDistance(path, segment);
   path.throughput *= s.weight;
-  path.unguided *= s.weight;
   if (path.throughput.isBlack()) return Event::Ended;
   if (!s.scatters) return Event::Surface;
   if (path.bounces >= settings_.maxDepth || !survives(path)) return Event::Ended;
@@ -225,7 +227,6 @@ bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
                             path.numbers.next2(), path.state.rays);
   if (!entry) return false;
   path.throughput *= entry->weight;
-  path.unguided *= entry->weight;
   path.surface = entry->at.primitive;
   path.state.bsdf.reset(entry->at);
   bssrdf->addEntryLobe(path.state.bsdf);
@@ -237,9 +238,9 @@ bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
 /// they are for light that comes by other ways.
 void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
   const Rgb added = path.throughput * found;
-  path.radiance += added;
+  path.radiance.add(added);
   if (path.learns && path.weighed && !path.memory->turns.empty())
-    path.memory->turns.back().before += added, path.memory->turns.back().direct += added;
+    path.memory->turns.back().before += added;
 }
 
 /// Russian roulette with the probabilities of pbrt-v3; for paths that a guide knows, see below.
@@ -247,23 +248,39 @@ bool VolumePathEstimator::survives(Path& path) const {
   return path.promise > 0 || survivesByThroughput(path);
 }
 
+/// With what probability a path of this throughput ends.
+float VolumePathEstimator::endByThroughput(const Path& path, float throughput) const {
+  const float most = throughput * path.etaScale;
+  return path.bounces <= kFirstRouletteBounce || !(most < settings_.rrThreshold)
+             ? 0
+             : std::max(0.05f, 1 - most);
+}
+
+/// By what the throughput would be without a guide: a guide draws directions that matter more
+/// often, for which their throughput is smaller. (By the larger of the two, so that it blows up no
+/// path that went against the guide.)
 bool VolumePathEstimator::survivesByThroughput(Path& path) const {
-  if (path.bounces <= kFirstRouletteBounce) return true;
-  const float most =
-      std::max(path.unguided.maxComponent(), path.throughput.maxComponent()) * path.etaScale;
-  if (!(most < settings_.rrThreshold)) return true;
-  const float end = std::max(0.05f, 1 - most);
-  path.setDimension(kRouletteOffset);
-  if (path.stream.next1D() < end) return false;
-  path.throughput /= 1 - end;
-  path.unguided /= 1 - end;
+  const float end =
+      endByThroughput(path, std::max(path.throughput.maxComponent(), path.unguidedThroughput()));
+  if (end > 0) {
+    path.setDimension(kRouletteOffset);
+    if (path.stream.next1D() < end) return false;
+  }
+  goOn(path, 1 - end);
   return true;
+}
+
+/// After roulette that the path has survived with the probability `chance`.
+void VolumePathEstimator::goOn(Path& path, float chance) const {
+  path.radiance.odds *=
+      static_cast<double>(chance / (1 - endByThroughput(path, path.unguidedThroughput())));
+  path.throughput /= chance;
 }
 
 /// Russian roulette by the radiance that is still to come, as the guide expects it, in relation to
 /// what was to come at the first vertex with a guide (Vorba and Křivánek 2016, "Adjoint-Driven
 /// Russian Roulette and Splitting in Light Transport Simulation", without the splitting).
-bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) {
+bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) const {
   constexpr float kDispensable = 0.5f, kLeast = 0.3f;
   const float expected = path.throughput.luminance() * scattered;
   if (!(path.promise > 0)) {
@@ -271,11 +288,9 @@ bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) {
     return true;
   }
   const float worth = expected / (kDispensable * path.promise);
-  if (!(worth < 1)) return true;
-  const float chance = std::max(kLeast, worth);
-  if (path.numbers.next() >= chance) return false;
-  path.throughput /= chance;
-  path.unguided /= chance;
+  const float chance = worth < 1 ? std::max(kLeast, worth) : 1.f;
+  if (chance < 1 && path.numbers.next() >= chance) return false;
+  goOn(path, chance);
   return true;
 }
 
@@ -291,7 +306,7 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
     if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
   }
   const DirectionMixture mixture(point, guide, guidance_.ownShare);
-  if (lighting_.hasLights() && !specular) path.radiance += tryLight(path, mixture, point, guide);
+  if (lighting_.hasLights() && !specular) tryLight(path, mixture, point, guide);
   if (guide ? !survivesByPromise(path, guide->scattered())
             : path.promise > 0 && !survivesByThroughput(path))
     return false;
@@ -301,12 +316,13 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   path.setDimension(kDirectionOffset);
   const Vec2 u = path.ownNumbers ? path.numbers.next2() : path.stream.next2D();
   float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
-  if (path.memory && specular && path.bounces == 0) preferRare(path, uc);
+  const bool hasRare = specular && point.bsdf()->transmits();
+  if (path.memory && hasRare && path.bounces == 0) preferRare(path, uc);
   const auto d = mixture.sample(uc, u, path.numbers);
   if (!d) return false;
   path.throughput *= d->scattered / d->pdf;
   if (path.throughput.isBlack()) return false;
-  if (d->ownPdf > 0) path.unguided *= d->scattered / d->ownPdf;
+  if (d->ownPdf > 0) path.radiance.odds *= static_cast<double>(d->pdf / d->ownPdf);
   path.below = path.entersBelow && d->isTransmission;
   if (!path.below) path.etaScale *= d->etaScale;
   path.weighed = !d->isSpecular;
@@ -347,12 +363,12 @@ const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w
 
 /// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
 /// has seen little of it arrive.
-Rgb VolumePathEstimator::tryLight(Path& path, const DirectionMixture& mixture,
-                                  const ScatteringPoint& point, const LocalGuide* guide) const {
+void VolumePathEstimator::tryLight(Path& path, const DirectionMixture& mixture,
+                                   const ScatteringPoint& point, const LocalGuide* guide) const {
   const float chance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
   path.lightFound = false;
   path.lightTried = !(chance < 1) || path.numbers.next() < chance;
-  return path.lightTried ? lightAt(path, mixture, point) * (1 / chance) : Rgb();
+  if (path.lightTried) path.radiance.add(lightAt(path, mixture, point) * (1 / chance), chance);
 }
 
 Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
@@ -380,11 +396,8 @@ void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
   turn.sample.n = where.onSurface() ? faceForward(where.n, d.wi) : Vec3(0);
   turn.sample.wi = d.wi;
   turn.sample.pdf = d.pdf;
-  turn.sample.ownPdf = d.ownPdf;
-  turn.sample.guidePdf = d.guidePdf;
   turn.throughput = path.throughput;
-  turn.before = path.radiance;
-  turn.scattered = d.scattered;
+  turn.before = path.radiance.sum;
   turn.sample.lightTried = path.lightTried;
   turn.sample.lightFound = path.lightFound;
 }

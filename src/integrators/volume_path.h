@@ -38,12 +38,14 @@ class VolumePathEstimator final : public RadianceEstimator {
   void addEmission(Path& path, const Rgb& found) const;
   bool survives(Path& path) const;
   bool survivesByThroughput(Path& path) const;
-  static bool survivesByPromise(Path& path, float scattered);
+  bool survivesByPromise(Path& path, float scattered) const;
+  float endByThroughput(const Path& path, float throughput) const;
+  void goOn(Path& path, float chance) const;
   bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
   bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
   bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
-  Rgb tryLight(Path& path, const class DirectionMixture& mixture,
-               const class ScatteringPoint& point, const LocalGuide* guide) const;
+  void tryLight(Path& path, const class DirectionMixture& mixture,
+                const class ScatteringPoint& point, const LocalGuide* guide) const;
   Rgb lightAt(Path& path, const class DirectionMixture& mixture,
               const class ScatteringPoint& point) const;
   static void preferRare(Path& path, float& uc);

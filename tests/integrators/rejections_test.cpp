@@ -161,7 +161,7 @@ TEST(Rejections, ProbesThatNeverEnd) {
 
 TEST(Rejections, WhatGuidesAreNotTaught) {
   GuidedMemory memory(nullptr);
-  memory.turns.push_back({{}, Rgb(1e-30f), Rgb(), Rgb(1)});
+  memory.turns.push_back({{}, Rgb(1e-30f), Rgb()});
   EXPECT_EQ(counted(Rejection::LearningSample, [&] { memory.finish(Rgb(1e30f)); }), 1u);
   EXPECT_TRUE(memory.samples.empty());
 }
