@@ -7,6 +7,7 @@
 
 #include "base/bsdf.h"
 #include "base/light.h"
+#include "base/medium.h"
 
 namespace lampyris {
 
@@ -19,12 +20,21 @@ struct LightSampleContext {
   /// Whether light can arrive from the side of wo (as the geometric normal sees it), and from the
   /// other one.
   bool reflects = true, transmits = true;
-  const Bsdf* bsdf = nullptr;  ///< null where there is no surface
+  const Bsdf* bsdf = nullptr;            ///< null where there is no surface
+  const PhaseFunction* phase = nullptr;  ///< of the medium there
   /// In [0, 1]: how many lights the point is worth, relative to the most that a cut may have.
   float worth = 1;
 
   LightSampleContext() = default;
   LightSampleContext(const SurfaceInteraction& at, const Bsdf& bsdf);
+
+  /// What is scattered towards wo of light from `wi`: BSDF × |cos|, or the phase function. One of
+  /// them must be set, as for pdf().
+  Rgb scattered(const Vec3& wi) const {
+    return bsdf ? bsdf->f(wo, wi) * bsdf->absCosTheta(wi) : Rgb(phase->p(wo, wi));
+  }
+  /// With which BSDF or phase function themselves draw `wi`, by solid angle.
+  float pdf(const Vec3& wi) const { return bsdf ? bsdf->pdf(wo, wi) : phase->p(wo, wi); }
 };
 
 struct SampledLight {

@@ -251,7 +251,7 @@ std::optional<Splat> BidirectionalPaths::connectCamera(Paths& paths, size_t s, S
 /// interfaces block no light.
 Rgb BidirectionalPaths::passing(Paths& paths, const PathVertex& from, const LightSample& to,
                                 RayCounts& rays) const {
-  const Ray ray = unitShadowRay(from.context(), paths.time(), to);
+  const Ray ray = shadowRay(from.context(), paths.time(), to);
   return transmittance(scene_, ray, from.mediumTowards(to.wi), paths.numbers, rays);
 }
 

@@ -74,11 +74,11 @@ inline std::optional<SampledLight> DirectLighting::chooseLight(const LightSample
 }
 
 bool DirectLighting::proposeLight(const LightSampleContext& at, float time, SampleStream& stream,
-                                  LightConnection& out) const {
+                                  LightConnection& out, float ownShare) const {
   Vec2 u;
   const auto chosen = chooseLight(at, stream, u);
   if (!chosen || !proposeConnection(scene_, at, time, chosen->light, u, out)) return false;
-  out.value *= weightOverDensity(at, *chosen, out);
+  out.value *= weightOverDensity(at, *chosen, out, ownShare);
   return true;
 }
 
@@ -125,28 +125,12 @@ Rgb DirectLighting::lightSample(const LightSampleContext& at, float time,
 }
 
 float DirectLighting::weightOverDensity(const LightSampleContext& at, const SampledLight& chosen,
-                                        const LightConnection& c) const {
+                                        const LightConnection& c, float ownShare) const {
   const float density = chosen.pmf * c.pdf;
   const float weight =
       c.isDelta ? 1.f
-                : misWeight(density, static_cast<float>(bsdfDraws_) * at.bsdf->pdf(at.wo, c.wi));
+                : misWeight(density, ownShare * static_cast<float>(bsdfDraws_) * at.pdf(c.wi));
   return weight / density;
-}
-
-DrawnLight DirectLighting::drawLight(const LightSampleContext& at, SampleStream& stream) const {
-  Vec2 u;
-  const auto chosen = chooseLight(at, stream, u);
-  if (!chosen) return {};
-  DrawnLight drawn{lightArriving(scene_, chosen->light, at.p, u)};
-  if (drawn.light) {
-    drawn.density = chosen->pmf * drawn.light->pdf;
-    drawn.isDelta = scene_.lightTable[chosen->light].light->isDelta();
-  }
-  return drawn;
-}
-
-float DirectLighting::lightWeight(const DrawnLight& drawn, float scatterPdf) {
-  return drawn.isDelta ? 1.f : misWeight(drawn.density, scatterPdf);
 }
 
 float DirectLighting::bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,

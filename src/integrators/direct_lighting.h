@@ -17,19 +17,12 @@ enum class LightStrategy : uint8_t {
   EachOnce,  ///< every light by one sample, and by no BSDF samples
 };
 
-/// Light drawn for a point, before anything is known of what scatters it there.
-struct DrawnLight {
-  std::optional<LightSample> light;  ///< none where nothing arrives
-  float density = 0;                 ///< expected draws × pdf by solid angle
-  bool isDelta = false;
-};
-
 /// Both techniques see each other through the expected number of draws times the density, so that a
 /// light is weighed alike from either side however often it is sampled.
 class DirectLighting {
  public:
   /// Cheap. `distribution` is used by LightStrategy::One and may be null if there are no lights.
-  /// `mayCut` false: always one light, as drawLight() draws it.
+  /// `mayCut` false: always one light.
   DirectLighting(const Scene& scene, LightStrategy strategy, const LightDistribution* distribution,
                  bool mayCut = true);
 
@@ -50,22 +43,16 @@ class DirectLighting {
                    RayCounts& rays) const;
   /// The same as one connection with its weight in `value`, which counts where nothing occludes
   /// `shadow`: for callers that have something to do before they trace that ray. False: nothing is
-  /// scattered. Not where drawsMany().
+  /// scattered. Not where drawsMany(). `ownShare`: of the point's own draws among all that the
+  /// caller makes there; by it foundAtHit() and foundOutside() get their densities times the same.
   bool proposeLight(const LightSampleContext& at, float time, SampleStream& stream,
-                    LightConnection& out) const;
+                    LightConnection& out, float ownShare = 1) const;
   /// Opens a light vertex and notes the lights that lightSamples() draws there with the same
   /// arguments, by drawing them again.
   void recordDraws(const LightSampleContext& at, SampleStream stream, AovRecord& record) const;
   /// The other part, by rays of its own: for integrators whose paths end here.
   Rgb bsdfSamples(const LightSampleContext& at, float time, SampleStream& stream,
                   RayCounts& rays) const;
-
-  /// For integrators that scatter and shade the light themselves: one light of the distribution
-  /// (LightStrategy::One, `mayCut` false). Takes three numbers.
-  DrawnLight drawLight(const LightSampleContext& at, SampleStream& stream) const;
-  /// The weight of a light drawn with drawLight() where the point's own sampling has density
-  /// `scatterPdf` for its direction: the other half of foundAtHit() and foundOutside().
-  static float lightWeight(const DrawnLight& drawn, float scatterPdf);
 
   /// Radiance that a ray which left `from` with a non-specular BSDF sample of density `bsdfPdf`
   /// finds at `hit` (an emitter), times the weight of that technique.
@@ -94,7 +81,7 @@ class DirectLighting {
                   const Vec2& u, RayCounts& rays) const;
   /// Of a connection: the weight of light sampling over its density.
   float weightOverDensity(const LightSampleContext& at, const SampledLight& chosen,
-                          const LightConnection& c) const;
+                          const LightConnection& c, float ownShare = 1) const;
   float bsdfWeight(const LightSampleContext& from, LightId light, float bsdfPdf,
                    float lightPdf) const;
 

@@ -16,15 +16,15 @@ void DirectionMixture::set(DrawnDirection& d, const Vec3& wi, const Rgb& scatter
 
 /// Leaves `d` black where nothing is scattered.
 void DirectionMixture::sampleOwn(DrawnDirection& d, float uc, const Vec2& u) const {
-  if (!at_.bsdf()) {
-    const Vec3 wi = at_.phase()->sample(at_.wo(), u);
-    const float p = at_.phase()->p(at_.wo(), wi);
+  if (!at_.bsdf) {
+    const Vec3 wi = at_.phase->sample(at_.wo, u);
+    const float p = at_.phase->p(at_.wo, wi);
     set(d, wi, Rgb(p), p);
     return;
   }
-  const auto s = at_.bsdf()->sample(at_.wo(), uc, u);
+  const auto s = at_.bsdf->sample(at_.wo, uc, u);
   if (!s) return;
-  const Rgb scattered = s->f * at_.bsdf()->absCosTheta(s->wi);
+  const Rgb scattered = s->f * at_.bsdf->absCosTheta(s->wi);
   if (s->isSpecular()) {
     // No other technique finds a specular direction: only the choice of this one counts.
     d.wi = s->wi;

@@ -2,43 +2,35 @@
 /// The next direction of a path: from the BSDF or phase function, or from a guide.
 #pragma once
 
-#include "base/bsdf.h"
+#include "base/light_distribution.h"
 #include "guiding/guide.h"
 
 namespace lampyris {
 
-/// What scatters light at a vertex of a path: a surface's BSDF or a medium's phase function.
+/// What a vertex of a path scatters, as guides ask for it.
 class ScatteringPoint final : public DirectionWeight {
  public:
-  ScatteringPoint(const Bsdf& bsdf, const Vec3& wo) : bsdf_(&bsdf), wo_(wo) {}
-  ScatteringPoint(const PhaseFunction& phase, const Vec3& wo) : phase_(&phase), wo_(wo) {}
+  /// at.scattered() must be known; `at` must live as long.
+  explicit ScatteringPoint(const LightSampleContext& at) : at_(at) {}
 
-  /// BSDF × |cos|, or the phase function.
-  Rgb scattered(const Vec3& wi) const {
-    return bsdf_ ? bsdf_->f(wo_, wi) * bsdf_->absCosTheta(wi) : Rgb(phase_->p(wo_, wi));
-  }
-  float weight(const Vec3& wi) const override { return scattered(wi).luminance(); }
+  float weight(const Vec3& wi) const override { return at_.scattered(wi).luminance(); }
   /// Of rough matte surfaces, which vary a little, what they scatter straight up.
   float even() const override {
-    if (phase_) return phase_->isIsotropic() ? phase_->p(wo_, wo_) : -1;
-    if (!bsdf_->isDiffuse() || bsdf_->transmits()) return -1;
-    return bsdf_->f(wo_, faceForward(bsdf_->frame().z, wo_)).luminance();
+    const Bsdf* const bsdf = at_.bsdf;
+    if (!bsdf) return at_.phase->isIsotropic() ? at_.phase->p(at_.wo, at_.wo) : -1;
+    if (!bsdf->isDiffuse() || bsdf->transmits()) return -1;
+    return bsdf->f(at_.wo, faceForward(bsdf->frame().z, at_.wo)).luminance();
   }
-  float pdf(const Vec3& wi) const { return bsdf_ ? bsdf_->pdf(wo_, wi) : phase_->p(wo_, wi); }
-  const Bsdf* bsdf() const { return bsdf_; }
-  const PhaseFunction* phase() const { return phase_; }
-  const Vec3& wo() const { return wo_; }
+  const LightSampleContext& at() const { return at_; }
 
  private:
-  const Bsdf* bsdf_ = nullptr;
-  const PhaseFunction* phase_ = nullptr;
-  Vec3 wo_;
+  const LightSampleContext& at_;
 };
 
 /// A direction drawn from a DirectionMixture.
 struct DrawnDirection {
   Vec3 wi{0};
-  Rgb scattered;  ///< ScatteringPoint::scattered(), or what makes scattered / pdf the weight
+  Rgb scattered;  ///< LightSampleContext::scattered(), or what makes scattered / pdf the weight
   float pdf = 0;
   float guidePdf = -1;  ///< of the guide; < 0: there is none
   float ownPdf = 0;     ///< of the point's own sampling; of a specular draw the share of its choice
@@ -51,13 +43,13 @@ struct DrawnDirection {
 class DirectionMixture {
  public:
   /// `guide` null: the point's own sampling alone. `ownShare` in (0, 1].
-  DirectionMixture(const ScatteringPoint& at, const LocalGuide* guide, float ownShare)
+  DirectionMixture(const LightSampleContext& at, const LocalGuide* guide, float ownShare)
       : at_(at), guide_(guide), ownShare_(guide ? ownShare : 1) {}
 
-  /// The density that light sampling is weighed against: of the point's own draws among all. To
-  /// leave out the guide's share is as unbiased, since both techniques weigh so, and saves its
-  /// evaluation; guides are for light that light sampling does not find.
-  float weighingPdf(float ownPdf) const { return ownShare_ * ownPdf; }
+  /// Of the point's own draws among all. Light sampling is weighed against these alone: to leave
+  /// out the guide's is as unbiased, since both techniques weigh so, and saves their evaluation;
+  /// guides are for light that light sampling does not find.
+  float ownShare() const { return ownShare_; }
   /// None where nothing is scattered.
   std::optional<DrawnDirection> sample(float uc, const Vec2& u, NumberSequence& more) const;
 
@@ -69,7 +61,7 @@ class DirectionMixture {
   void set(DrawnDirection& d, const Vec3& wi, const Rgb& scattered, float ownPdf) const;
   void sampleOwn(DrawnDirection& d, float uc, const Vec2& u) const;
 
-  const ScatteringPoint& at_;
+  const LightSampleContext& at_;
   const LocalGuide* guide_;
   float ownShare_;
 };

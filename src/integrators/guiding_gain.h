@@ -17,12 +17,11 @@ namespace lampyris {
 /// The radiance of a guided path, term by term, with its square as it counts without a guide.
 struct PairedRadiance {
   Rgb sum{};
-  /// p/q of the way so far, over the choices of directions and of whether to go on.
-  double odds = 1;
   double unguidedSum = 0, unguidedSquare = 0;
 
-  /// Adds a term that is there with the probability `chance` (without a guide always).
-  void add(const Rgb& term, float chance = 1) {
+  /// Adds a term. `odds`: p/q of the way to it, over the choices of directions and of whether to go
+  /// on. It is there with the probability `chance` (without a guide always).
+  void add(const Rgb& term, double odds, float chance = 1) {
     const auto added = static_cast<double>(term.luminance());
     // With the density q of the longer of two ways, their product stands for 1/q of the shorter.
     unguidedSquare += added * (added * odds * static_cast<double>(chance) + 2 * unguidedSum);

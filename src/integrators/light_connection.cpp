@@ -31,14 +31,6 @@ Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light
   return ray;
 }
 
-Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& light) {
-  Ray ray = shadowRay(at, time, light);
-  const float distance = length(ray.d);
-  if (distance > 0) ray.d /= distance;
-  ray.tMax *= distance;
-  return ray;
-}
-
 std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
                                          const Vec2& u) {
   const LightTable::Entry entry = scene.lightTable[light];
@@ -55,10 +47,10 @@ bool proposeConnection(const Scene& scene, const LightSampleContext& at, float t
                        const Vec2& u, LightConnection& out) {
   const auto s = lightArriving(scene, light, at.p, u);
   if (!s) return false;
-  const Rgb f = at.bsdf->f(at.wo, s->wi);
-  if (f.isBlack()) return false;
+  const Rgb scattered = at.scattered(s->wi);
+  if (scattered.isBlack()) return false;
   std::construct_at(&out.shadow, shadowRay(at, time, *s));  // in place
-  out.value = s->radiance * f * at.bsdf->absCosTheta(s->wi);
+  out.value = s->radiance * scattered;
   out.wi = s->wi;
   out.pdf = s->pdf;
   out.isDelta = scene.lightTable[light].light->isDelta();

@@ -13,7 +13,7 @@ namespace lampyris {
 
 /// Light scattered at a point after it came from a sample of a light.
 struct LightConnection {
-  Rgb value;   ///< radiance × BSDF × |cos|, not divided by any density
+  Rgb value;   ///< radiance × what is scattered of it, not divided by any density
   Ray shadow;  ///< what tells whether anything is in the way
   Vec3 wi{0};
   float pdf = 0;  ///< of the light's own sampling, by solid angle; 1 for delta lights
@@ -23,8 +23,6 @@ struct LightConnection {
 /// From the point to a sample of a light: from t = 0 to 1 where that has a position. `d` is no unit
 /// vector then.
 Ray shadowRay(const LightSampleContext& at, float time, const LightSample& light);
-/// The same with a unit vector, for what is measured along the ray.
-Ray unitShadowRay(const LightSampleContext& at, float time, const LightSample& light);
 
 /// The next of a sequence in the unit square with few gaps whatever its length (Roberts 2018):
 /// points on the lights of one cut.
@@ -43,8 +41,8 @@ inline void prefetchLights(const Scene& scene, const SampledLights& cut) {
 std::optional<LightSample> lightArriving(const Scene& scene, LightId light, const Vec3& from,
                                          const Vec2& u);
 /// Sets `out` to what is scattered if nothing is in the way, which out.shadow will tell; false:
-/// nothing is. at.bsdf must be set; `u` chooses the point of the light; `time` is that of the
-/// shadow ray.
+/// nothing is. at.scattered() must be known; `u` chooses the point of the light; `time` is that of
+/// the shadow ray.
 bool proposeConnection(const Scene& scene, const LightSampleContext& at, float time, LightId light,
                        const Vec2& u, LightConnection& out);
 /// The same with the shadow ray traced: none either where nothing arrives.

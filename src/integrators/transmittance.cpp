@@ -5,14 +5,27 @@
 
 namespace lampyris {
 
+namespace {
+
+/// What is measured along a ray wants its direction so.
+void makeUnit(Ray& ray) {
+  const float size = length(ray.d);
+  if (size > 0) ray.d /= size;
+  ray.tMax *= size;
+}
+
+}  // namespace
+
 Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
                   RayCounts& rays) {
   ++rays.shadow;
   const Geometry& geometry = *scene.geometry;
   if (!scene.hasInterfaces) {
     if (geometry.occluded(ray)) return Rgb();
-    return medium ? medium->transmittance(ray, numbers, rays.tracking) : Rgb(1);
+    if (!medium) return Rgb(1);
   }
+  makeUnit(ray);
+  if (!scene.hasInterfaces) return medium->transmittance(ray, numbers, rays.tracking);
   Rgb share(1);
   for (int passed = 0; mayPass(passed); ++passed) {
     const auto hit = geometry.intersect(ray);

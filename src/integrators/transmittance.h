@@ -13,8 +13,9 @@ inline const Medium* mediumBeyond(const Primitive& primitive, const Medium* curr
   return primitive.media.isTransition() ? primitive.media.towards(w, n) : current;
 }
 
-/// Share of the light that reaches the end of `ray` (unit direction), which starts within `medium`:
-/// 0 behind a surface with a material; surfaces without one are passed. An unbiased estimate.
+/// Share of the light that reaches the end of `ray` (a direction of any length), which starts
+/// within `medium`: 0 behind a surface with a material; surfaces without one are passed. An
+/// unbiased estimate.
 Rgb transmittance(const Scene& scene, Ray ray, const Medium* medium, NumberSequence& numbers,
                   RayCounts& rays);
 

@@ -42,6 +42,7 @@ struct VolumePathEstimator::Path {
 
   PairedRadiance radiance;
   Rgb throughput{1};
+  double odds = 1;     ///< of the way so far, as PairedRadiance::add() wants them
   float promise = 0;   ///< radiance to come at the first vertex of which a guide told it; 0: none
   float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
   int bounces = 0, interfaces = 0;
@@ -55,16 +56,23 @@ struct VolumePathEstimator::Path {
   bool entersBelow = false;  ///< a transmitted direction leads below the surface; no guide knows
   bool below = false;        ///< it has
   bool ownNumbers = false;   ///< the sampler's numbers of this bounce are used up
-  bool lightTried = false, lightFound = false;  ///< by light sampling at the last vertex
-  const Primitive* surface = nullptr;           ///< of the last vertex; null in a medium
-  Vec3 normal{0, 0, 1};                         ///< there
-  NumberSequence numbers{0};                    ///< whatever the sampler's dimensions do not cover
+  /// Light sampled at the last vertex whose shadow ray is still to be traced.
+  struct Proposal {
+    LightConnection light;
+    const Medium* medium = nullptr;  ///< in which its shadow ray starts
+    double odds = 1;
+    float chance = 1;
+  } proposed{};
+  bool isProposed = false;
+  bool lightTried = false;             ///< at the last vertex
+  bool remembered = false;             ///< the last turn is that of the last vertex
+  const Primitive* surface = nullptr;  ///< of the last vertex; null in a medium
+  Vec3 normal{0, 0, 1};                ///< there
+  NumberSequence numbers{0};           ///< whatever the sampler's dimensions do not cover
 
   /// Largest component of what the throughput would be, had the same way been drawn without a
   /// guide.
-  float unguidedThroughput() const {
-    return throughput.maxComponent() * static_cast<float>(radiance.odds);
-  }
+  float unguidedThroughput() const { return throughput.maxComponent() * static_cast<float>(odds); }
   void setDimension(uint32_t offset) {
     stream.setDimension(kFirstPathDimension +
                         static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
@@ -95,6 +103,8 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   while (true) {
     ++state.rays.closest;
     const auto hit = scene_.geometry->intersect(path.ray);
+    if (hit) prefetchSurface(*scene_.geometry, *hit);
+    settle(path);
     path.emissionAdded = path.medium != nullptr;
     if (path.medium) {
       const float end = hit ? hit->shape.t : kInfinity;
@@ -110,6 +120,7 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
     if (!path.emissionAdded) addEmission(path, outside(path));
     break;
   }
+  settle(path);
   if (path.learns) path.memory->finish(path.radiance.sum);
   if (path.memory && guidance_.use) path.memory->gain.add(stream.address().pixel, path.radiance);
   return path.radiance.sum;
@@ -168,9 +179,9 @@ VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float 
   std::construct_at(&path.from);
   path.from.p = p;
   path.from.wo = wo;
+  path.from.phase = &path.medium->phase();
   path.ray.o = p;
-  const ScatteringPoint point(path.medium->phase(), wo);
-  return scatter(path, point, GuidePoint{p}) ? Event::Scattered : Event::Ended;
+  return scatter(path, GuidePoint{p}) ? Event::Scattered : Event::Ended;
 }
 
 /// Adds the emission of a surface and leaves it; false: the path ends.
@@ -209,7 +220,7 @@ bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
   const GuidePoint where{at.p, faceForward(at.n, at.wo), bsdf.transmits()};
   path.entersBelow = scattersBelow_ && material && material->scattersBelow();
   path.below = false;
-  if (!scatter(path, ScatteringPoint(bsdf, at.wo), where)) return false;
+  if (!scatter(path, where)) return false;
   return !(path.below && material) || enterBelow(path, at, *material);
 }
 
@@ -238,7 +249,7 @@ bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
 /// they are for light that comes by other ways.
 void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
   const Rgb added = path.throughput * found;
-  path.radiance.add(added);
+  path.radiance.add(added, path.odds);
   if (path.learns && path.weighed && !path.memory->turns.empty())
     path.memory->turns.back().before += added;
 }
@@ -260,6 +271,7 @@ float VolumePathEstimator::endByThroughput(const Path& path, float throughput) c
 /// often, for which their throughput is smaller. (By the larger of the two, so that it blows up no
 /// path that went against the guide.)
 bool VolumePathEstimator::survivesByThroughput(Path& path) const {
+  if (path.bounces <= kFirstRouletteBounce) return true;
   const float end =
       endByThroughput(path, std::max(path.throughput.maxComponent(), path.unguidedThroughput()));
   if (end > 0) {
@@ -272,8 +284,7 @@ bool VolumePathEstimator::survivesByThroughput(Path& path) const {
 
 /// After roulette that the path has survived with the probability `chance`.
 void VolumePathEstimator::goOn(Path& path, float chance) const {
-  path.radiance.odds *=
-      static_cast<double>(chance / (1 - endByThroughput(path, path.unguidedThroughput())));
+  path.odds *= static_cast<double>(chance / (1 - endByThroughput(path, path.unguidedThroughput())));
   path.throughput /= chance;
 }
 
@@ -295,18 +306,20 @@ bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) const {
 }
 
 /// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
-bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
-                                  const GuidePoint& where) const {
-  const bool specular = point.bsdf() && point.bsdf()->isSpecular();
+bool VolumePathEstimator::scatter(Path& path, const GuidePoint& where) const {
+  const Bsdf* const bsdf = path.from.bsdf;
+  const bool specular = bsdf && bsdf->isSpecular();
   // What the last ray finds, light sampling finds as well: guides do not know it.
   const bool lastRay = path.bounces + 1 >= settings_.maxDepth;
   const LocalGuide* guide = nullptr;
   if (path.memory && guidance_.use && !specular && !path.entersBelow && !lastRay) {
     ++path.memory->lookups;
-    if (path.memory->local->moveTo(where, point)) guide = path.memory->local.get();
+    if (path.memory->local->moveTo(where, ScatteringPoint(path.from)))
+      guide = path.memory->local.get();
   }
-  const DirectionMixture mixture(point, guide, guidance_.ownShare);
-  if (lighting_.hasLights() && !specular) tryLight(path, mixture, point, guide);
+  const DirectionMixture mixture(path.from, guide, guidance_.ownShare);
+  path.remembered = false;
+  if (lighting_.hasLights() && !specular) proposeLight(path, mixture, guide);
   if (guide ? !survivesByPromise(path, guide->scattered())
             : path.promise > 0 && !survivesByThroughput(path))
     return false;
@@ -316,17 +329,17 @@ bool VolumePathEstimator::scatter(Path& path, const ScatteringPoint& point,
   path.setDimension(kDirectionOffset);
   const Vec2 u = path.ownNumbers ? path.numbers.next2() : path.stream.next2D();
   float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
-  const bool hasRare = specular && point.bsdf()->transmits();
+  const bool hasRare = specular && bsdf->transmits();
   if (path.memory && hasRare && path.bounces == 0) preferRare(path, uc);
   const auto d = mixture.sample(uc, u, path.numbers);
   if (!d) return false;
   path.throughput *= d->scattered / d->pdf;
   if (path.throughput.isBlack()) return false;
-  if (d->ownPdf > 0) path.radiance.odds *= static_cast<double>(d->pdf / d->ownPdf);
+  if (d->ownPdf > 0) path.odds *= static_cast<double>(d->pdf / d->ownPdf);
   path.below = path.entersBelow && d->isTransmission;
   if (!path.below) path.etaScale *= d->etaScale;
   path.weighed = !d->isSpecular;
-  path.pdf = mixture.weighingPdf(d->ownPdf);
+  path.pdf = mixture.ownShare() * d->ownPdf;
   if (path.memory && !specular) {
     ++path.memory->drawn;
     path.memory->guided += guide != nullptr;
@@ -363,29 +376,36 @@ const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w
 
 /// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
 /// has seen little of it arrive.
-void VolumePathEstimator::tryLight(Path& path, const DirectionMixture& mixture,
-                                   const ScatteringPoint& point, const LocalGuide* guide) const {
+void VolumePathEstimator::proposeLight(Path& path, const DirectionMixture& mixture,
+                                       const LocalGuide* guide) const {
+  settle(path);
   const float chance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
-  path.lightFound = false;
   path.lightTried = !(chance < 1) || path.numbers.next() < chance;
-  if (path.lightTried) path.radiance.add(lightAt(path, mixture, point) * (1 / chance), chance);
+  if (!path.lightTried) return;
+  path.setDimension(0);
+  Path::Proposal& p = path.proposed;
+  path.isProposed =
+      lighting_.proposeLight(path.from, path.ray.time, path.stream, p.light, mixture.ownShare());
+  if (!path.isProposed) return;
+  p.light.value *= path.throughput / chance;
+  p.medium = mediumTowards(path, p.light.wi);
+  p.odds = path.odds;
+  p.chance = chance;
 }
 
-Rgb VolumePathEstimator::lightAt(Path& path, const DirectionMixture& mixture,
-                                 const ScatteringPoint& point) const {
-  path.setDimension(0);
-  const DrawnLight drawn = lighting_.drawLight(path.from, path.stream);
-  if (!drawn.light) return Rgb();
-  const Vec3& wi = drawn.light->wi;
-  const Rgb scattered = point.scattered(wi);
-  if (scattered.isBlack()) return Rgb();
-  const Rgb share = transmittance(scene_, unitShadowRay(path.from, path.ray.time, *drawn.light),
-                                  mediumTowards(path, wi), path.numbers, path.state.rays);
-  if (share.isBlack()) return Rgb();
-  path.lightFound = true;
-  const float pdf = drawn.isDelta ? 0 : mixture.weighingPdf(point.pdf(wi));
-  const float weight = DirectLighting::lightWeight(drawn, pdf);
-  return path.throughput * drawn.light->radiance * scattered * share * (weight / drawn.density);
+/// Traces the shadow ray of the last vertex, if one is proposed.
+void VolumePathEstimator::settle(Path& path) const {
+  if (!path.isProposed) return;
+  path.isProposed = false;
+  const Path::Proposal& p = path.proposed;
+  const Rgb share = transmittance(scene_, p.light.shadow, p.medium, path.numbers, path.state.rays);
+  if (share.isBlack()) return;
+  const Rgb added = p.light.value * share;
+  path.radiance.add(added, p.odds, p.chance);
+  if (!path.remembered) return;
+  GuidedMemory::Turn& turn = path.memory->turns.back();
+  turn.before += added;
+  turn.sample.lightFound = true;
 }
 
 void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
@@ -399,7 +419,7 @@ void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
   turn.throughput = path.throughput;
   turn.before = path.radiance.sum;
   turn.sample.lightTried = path.lightTried;
-  turn.sample.lightFound = path.lightFound;
+  path.remembered = true;
 }
 
 }  // namespace lampyris

@@ -43,11 +43,10 @@ class VolumePathEstimator final : public RadianceEstimator {
   void goOn(Path& path, float chance) const;
   bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
   bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
-  bool scatter(Path& path, const class ScatteringPoint& point, const GuidePoint& where) const;
-  void tryLight(Path& path, const class DirectionMixture& mixture,
-                const class ScatteringPoint& point, const LocalGuide* guide) const;
-  Rgb lightAt(Path& path, const class DirectionMixture& mixture,
-              const class ScatteringPoint& point) const;
+  bool scatter(Path& path, const GuidePoint& where) const;
+  void proposeLight(Path& path, const class DirectionMixture& mixture,
+                    const LocalGuide* guide) const;
+  void settle(Path& path) const;
   static void preferRare(Path& path, float& uc);
   const Medium* mediumTowards(const Path& path, const Vec3& w) const;
   void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;

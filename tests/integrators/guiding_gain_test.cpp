@@ -43,16 +43,17 @@ struct TwoSteps {
     };
     const auto grey = [](double value) { return Rgb(static_cast<float>(value)); };
     PairedRadiance out;
+    double odds = 1;
     const int i = choose(chances[0]);
     const double p = chance(0, i);
-    out.odds *= p / other.chance(0, i);
-    out.add(grey(light(i) / p));
+    odds *= p / other.chance(0, i);
+    out.add(grey(light(i) / p), odds);
     const auto at = static_cast<size_t>(i);
     if (choose(survival[at]) == 1) return out;
-    out.odds *= survival[at] / other.survival[at];
+    odds *= survival[at] / other.survival[at];
     const int j = choose(chances[1]);
-    out.odds *= chance(1, j) / other.chance(1, j);
-    out.add(grey(light(i, j) / (p * survival[at] * chance(1, j))));
+    odds *= chance(1, j) / other.chance(1, j);
+    out.add(grey(light(i, j) / (p * survival[at] * chance(1, j))), odds);
     return out;
   }
 
@@ -108,8 +109,7 @@ TEST(GuidingGain, SurvivesWhateverItIsGiven) {
     for (const double odds : {0., 1e-300, 1e300, HUGE_VAL}) {
       GuidingGain one;
       PairedRadiance path;
-      path.odds = odds;
-      path.add(Rgb(radiance));
+      path.add(Rgb(radiance), odds);
       one.add({0, 0}, path);
       one.add({0, 0}, {});
       one.finish();
