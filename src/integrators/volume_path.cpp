@@ -18,66 +18,10 @@ namespace lampyris {
 
 namespace {
 
-/// Numbers a vertex takes: light (1), point on it (2), direction (2), lobe (1), roulette (1),
-/// distance in the medium before it (2), and one left out so that pairs keep even dimensions.
-constexpr uint32_t kDimensionsPerVertex = 10;
-constexpr uint32_t kDirectionOffset = 3, kRouletteOffset = 6, kDistanceOffset = 7, kSeedOffset = 9;
-constexpr int kFirstRouletteBounce = 4;
 /// Vertices of a path that are learned from, at most.
 constexpr size_t kMaxTurns = 64;
 
 }  // namespace
-
-struct VolumePathEstimator::Path {
-  Path(const CameraRay& camera, const Medium* around, SampleStream& s, RenderState& st)
-      : ray(camera.ray), differential(&camera.differential), medium(around), stream(s), state(st) {}
-
-  Ray ray;
-  const RayDifferential* differential;  ///< null after the first vertex
-  const Medium* medium;
-  SampleStream& stream;
-  RenderState& state;
-  GuidedMemory* memory = nullptr;  ///< null: nothing guides, nothing learns
-  bool learns = false;
-
-  PairedRadiance radiance;
-  Rgb throughput{1};
-  double odds = 1;     ///< of the way so far, as PairedRadiance::add() wants them
-  float promise = 0;   ///< radiance to come at the first vertex of which a guide told it; 0: none
-  float etaScale = 1;  ///< undoes the change of radiance by refraction, for roulette
-  int bounces = 0, interfaces = 0;
-  bool emissionAdded = false;  ///< of what the ray ends at
-  bool distanceDrawn = false;  ///< since the last bounce, with the sampler's numbers
-  /// Light sampling at the last vertex could have found what the ray finds; `from` and `pdf` say
-  /// with which densities.
-  bool weighed = false;
-  LightSampleContext from{};
-  float pdf = 0;
-  bool entersBelow = false;  ///< a transmitted direction leads below the surface; no guide knows
-  bool below = false;        ///< it has
-  bool ownNumbers = false;   ///< the sampler's numbers of this bounce are used up
-  /// Light sampled at the last vertex whose shadow ray is still to be traced.
-  struct Proposal {
-    LightConnection light;
-    const Medium* medium = nullptr;  ///< in which its shadow ray starts
-    double odds = 1;
-    float chance = 1;
-  } proposed{};
-  bool isProposed = false;
-  bool lightTried = false;             ///< at the last vertex
-  bool remembered = false;             ///< the last turn is that of the last vertex
-  const Primitive* surface = nullptr;  ///< of the last vertex; null in a medium
-  Vec3 normal{0, 0, 1};                ///< there
-  NumberSequence numbers{0};           ///< whatever the sampler's dimensions do not cover
-
-  /// Largest component of what the throughput would be, had the same way been drawn without a
-  /// guide.
-  float unguidedThroughput() const { return throughput.maxComponent() * static_cast<float>(odds); }
-  void setDimension(uint32_t offset) {
-    stream.setDimension(kFirstPathDimension +
-                        static_cast<uint32_t>(bounces) * kDimensionsPerVertex + offset);
-  }
-};
 
 VolumePathEstimator::VolumePathEstimator(const Scene& scene, const PathSettings& settings,
                                          const LightDistribution* distribution,
@@ -86,6 +30,7 @@ VolumePathEstimator::VolumePathEstimator(const Scene& scene, const PathSettings&
       lighting_(scene, LightStrategy::One, distribution, false),
       settings_(settings),
       guidance_(guidance),
+      roulette_(settings.rrThreshold),
       scattersBelow_(scattersBelowSurfaces(scene)) {}
 
 std::unique_ptr<EstimatorMemory> VolumePathEstimator::makeMemory() const {
@@ -95,11 +40,11 @@ std::unique_ptr<EstimatorMemory> VolumePathEstimator::makeMemory() const {
 
 Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
                                   RenderState& state) const {
-  Path path(camera, scene_.cameraMedium, stream, state);
+  VolumePath path(camera, scene_.cameraMedium, stream, state);
   path.memory = static_cast<GuidedMemory*>(state.memory.get());
   path.learns = path.memory && guidance_.collect && stream.address().index % guidance_.stride == 0;
   if (path.memory || scattersBelow_ || !scene_.media.empty())
-    path.numbers = numbersBeyond(stream, kFirstPathDimension + kSeedOffset);
+    path.numbers = numbersBeyond(stream, kFirstPathDimension + VolumePath::kSeedOffset);
   while (true) {
     ++state.rays.closest;
     const auto hit = scene_.geometry->intersect(path.ray);
@@ -127,19 +72,19 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
 }
 
 /// Emission at the end of the path's ray, weighed where light sampling could have found it.
-Rgb VolumePathEstimator::emission(const Path& path, const SurfaceInteraction& at) const {
+Rgb VolumePathEstimator::emission(const VolumePath& path, const SurfaceInteraction& at) const {
   return path.weighed ? lighting_.foundAtHit(path.from, path.pdf, at)
                       : at.primitive->light->emitted(at, at.wo);
 }
 
-Rgb VolumePathEstimator::outside(const Path& path) const {
+Rgb VolumePathEstimator::outside(const VolumePath& path) const {
   return path.weighed ? lighting_.foundOutside(path.from, path.pdf, path.ray.d)
                       : lighting_.outside(path.ray.d);
 }
 
 /// Adds what of the light at the end of the path's ray gets through the medium, whether or not the
 /// path scatters before: to wait whether it does would make noise wherever a lamp is seen.
-void VolumePathEstimator::addDimmedEmission(Path& path, const std::optional<Hit>& hit,
+void VolumePathEstimator::addDimmedEmission(VolumePath& path, const std::optional<Hit>& hit,
                                             float tMax) const {
   Rgb found;
   if (!hit) {
@@ -155,24 +100,24 @@ void VolumePathEstimator::addDimmedEmission(Path& path, const std::optional<Hit>
 }
 
 /// The first distance after a bounce has the sampler's numbers.
-MediumSample VolumePathEstimator::sampleDistance(Path& path, const Ray& segment) {
+MediumSample VolumePathEstimator::sampleDistance(VolumePath& path, const Ray& segment) {
   TrackingCounts& counts = path.state.rays.tracking;
   if (path.distanceDrawn) return path.medium->sample(segment, path.numbers, counts);
   path.distanceDrawn = true;
-  path.setDimension(kDistanceOffset);
+  path.setDimension(VolumePath::kDistanceOffset);
   NumberSequence numbers = path.numbers.fork(path.stream.next2D());
   return path.medium->sample(segment, numbers, counts);
 }
 
 /// Goes through the medium up to `tMax`, or scatters in it.
-VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float tMax) const {
+VolumePathEstimator::Event VolumePathEstimator::throughMedium(VolumePath& path, float tMax) const {
   Ray segment = path.ray;
   segment.tMax = tMax;
   const MediumSample s = sampleDistance(path, segment);
   path.throughput *= s.weight;
   if (path.throughput.isBlack()) return Event::Ended;
   if (!s.scatters) return Event::Surface;
-  if (path.bounces >= settings_.maxDepth || !survives(path)) return Event::Ended;
+  if (path.bounces >= settings_.maxDepth || !roulette_.survives(path)) return Event::Ended;
 
   const Vec3 p = segment.at(s.t), wo = -path.ray.d;
   path.surface = nullptr;
@@ -185,7 +130,7 @@ VolumePathEstimator::Event VolumePathEstimator::throughMedium(Path& path, float 
 }
 
 /// Adds the emission of a surface and leaves it; false: the path ends.
-bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
+bool VolumePathEstimator::onSurface(VolumePath& path, const Hit& hit) const {
   const Primitive& primitive = scene_.geometry->primitive(hit);
   const bool last = path.bounces >= settings_.maxDepth;
   if (last && !primitive.light && primitive.material) return false;
@@ -199,7 +144,7 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
     startBehind(path.ray, at);
     return true;
   }
-  if (last || !survives(path)) return false;
+  if (last || !roulette_.survives(path)) return false;
   material->evaluate(at, path.state.bsdf);
   if (path.state.bsdf.empty()) return false;
   path.surface = &primitive;
@@ -207,11 +152,11 @@ bool VolumePathEstimator::onSurface(Path& path, const Hit& hit) const {
 }
 
 /// Turns at a surface whose BSDF is set. `material` is null where light has entered below it.
-bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
+bool VolumePathEstimator::shade(VolumePath& path, const SurfaceInteraction& at,
                                 const Material* material) const {
   const Bsdf& bsdf = path.state.bsdf;
   if (path.state.aov && path.bounces == 0 && material) {
-    path.setDimension(kDirectionOffset);
+    path.setDimension(VolumePath::kDirectionOffset);
     recordSurface(*path.state.aov, at, bsdf, path.stream);
   }
   path.normal = at.n;
@@ -225,7 +170,7 @@ bool VolumePathEstimator::shade(Path& path, const SurfaceInteraction& at,
 }
 
 /// Goes on where light that leaves at `at` has entered the body. As in pbrt-v3 that is no bounce.
-bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
+bool VolumePathEstimator::enterBelow(VolumePath& path, const SurfaceInteraction& at,
                                      const Material& material) const {
   BssrdfStorage storage;
   const Bssrdf* bssrdf = material.bssrdf(at, storage);
@@ -247,66 +192,15 @@ bool VolumePathEstimator::enterBelow(Path& path, const SurfaceInteraction& at,
 
 /// Adds what a ray finds of a light. Guides do not learn it where light sampling finds it as well:
 /// they are for light that comes by other ways.
-void VolumePathEstimator::addEmission(Path& path, const Rgb& found) const {
+void VolumePathEstimator::addEmission(VolumePath& path, const Rgb& found) const {
   const Rgb added = path.throughput * found;
   path.radiance.add(added, path.odds);
   if (path.learns && path.weighed && !path.memory->turns.empty())
     path.memory->turns.back().before += added;
 }
 
-/// Russian roulette with the probabilities of pbrt-v3; for paths that a guide knows, see below.
-bool VolumePathEstimator::survives(Path& path) const {
-  return path.promise > 0 || survivesByThroughput(path);
-}
-
-/// With what probability a path of this throughput ends.
-float VolumePathEstimator::endByThroughput(const Path& path, float throughput) const {
-  const float most = throughput * path.etaScale;
-  return path.bounces <= kFirstRouletteBounce || !(most < settings_.rrThreshold)
-             ? 0
-             : std::max(0.05f, 1 - most);
-}
-
-/// By what the throughput would be without a guide: a guide draws directions that matter more
-/// often, for which their throughput is smaller. (By the larger of the two, so that it blows up no
-/// path that went against the guide.)
-bool VolumePathEstimator::survivesByThroughput(Path& path) const {
-  if (path.bounces <= kFirstRouletteBounce) return true;
-  const float end =
-      endByThroughput(path, std::max(path.throughput.maxComponent(), path.unguidedThroughput()));
-  if (end > 0) {
-    path.setDimension(kRouletteOffset);
-    if (path.stream.next1D() < end) return false;
-  }
-  goOn(path, 1 - end);
-  return true;
-}
-
-/// After roulette that the path has survived with the probability `chance`.
-void VolumePathEstimator::goOn(Path& path, float chance) const {
-  path.odds *= static_cast<double>(chance / (1 - endByThroughput(path, path.unguidedThroughput())));
-  path.throughput /= chance;
-}
-
-/// Russian roulette by the radiance that is still to come, as the guide expects it, in relation to
-/// what was to come at the first vertex with a guide (Vorba and Křivánek 2016, "Adjoint-Driven
-/// Russian Roulette and Splitting in Light Transport Simulation", without the splitting).
-bool VolumePathEstimator::survivesByPromise(Path& path, float scattered) const {
-  constexpr float kDispensable = 0.5f, kLeast = 0.3f;
-  const float expected = path.throughput.luminance() * scattered;
-  if (!(path.promise > 0)) {
-    path.promise = expected;
-    return true;
-  }
-  const float worth = expected / (kDispensable * path.promise);
-  const float chance = worth < 1 ? std::max(kLeast, worth) : 1.f;
-  if (chance < 1 && path.numbers.next() >= chance) return false;
-  goOn(path, chance);
-  return true;
-}
-
 /// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
-bool VolumePathEstimator::scatter(Path& path, const GuidePoint& where) const {
+bool VolumePathEstimator::scatter(VolumePath& path, const GuidePoint& where) const {
   const Bsdf* const bsdf = path.from.bsdf;
   const bool specular = bsdf && bsdf->isSpecular();
   // What the last ray finds, light sampling finds as well: guides do not know it.
@@ -320,13 +214,13 @@ bool VolumePathEstimator::scatter(Path& path, const GuidePoint& where) const {
   const DirectionMixture mixture(path.from, guide, guidance_.ownShare);
   path.remembered = false;
   if (lighting_.hasLights() && !specular) proposeLight(path, mixture, guide);
-  if (guide ? !survivesByPromise(path, guide->scattered())
-            : path.promise > 0 && !survivesByThroughput(path))
+  if (guide ? !roulette_.survivesByPromise(path, guide->scattered())
+            : path.promise > 0 && !roulette_.survivesByThroughput(path))
     return false;
   // Where rays find no light, the last one need not be traced.
   if (lastRay && !path.entersBelow && !lighting_.hasVisibleLights()) return false;
 
-  path.setDimension(kDirectionOffset);
+  path.setDimension(VolumePath::kDirectionOffset);
   const Vec2 u = path.ownNumbers ? path.numbers.next2() : path.stream.next2D();
   float uc = path.ownNumbers ? path.numbers.next() : path.stream.next1D();
   const bool hasRare = specular && bsdf->transmits();
@@ -360,7 +254,7 @@ bool VolumePathEstimator::scatter(Path& path, const GuidePoint& where) const {
 /// What is seen in glass directly: its reflections are drawn rarely, and a lamp's makes noise that
 /// no guide can mend. So `uc`, which chooses between the directions of a specular surface, the
 /// reflected one first, is drawn from its lowest part more often.
-void VolumePathEstimator::preferRare(Path& path, float& uc) {
+void VolumePathEstimator::preferRare(VolumePath& path, float& uc) {
   constexpr float kPart = 1 / 16.f, kPreferred = 0.25f;
   constexpr float kDensityLow = 1 - kPreferred + kPreferred / kPart, kDensity = 1 - kPreferred;
   constexpr float kLow = kPart * kDensityLow;
@@ -370,20 +264,20 @@ void VolumePathEstimator::preferRare(Path& path, float& uc) {
 }
 
 /// The medium of a ray that leaves the last vertex.
-const Medium* VolumePathEstimator::mediumTowards(const Path& path, const Vec3& w) const {
+const Medium* VolumePathEstimator::mediumTowards(const VolumePath& path, const Vec3& w) const {
   return path.surface ? mediumBeyond(*path.surface, path.medium, w, path.normal) : path.medium;
 }
 
 /// Beyond the first vertex, where noise counts less, light is sampled more rarely where the guide
 /// has seen little of it arrive.
-void VolumePathEstimator::proposeLight(Path& path, const DirectionMixture& mixture,
+void VolumePathEstimator::proposeLight(VolumePath& path, const DirectionMixture& mixture,
                                        const LocalGuide* guide) const {
   settle(path);
   const float chance = guide && path.bounces > 0 ? guide->lightWorth() : 1;
   path.lightTried = !(chance < 1) || path.numbers.next() < chance;
   if (!path.lightTried) return;
   path.setDimension(0);
-  Path::Proposal& p = path.proposed;
+  VolumePath::Proposal& p = path.proposed;
   path.isProposed =
       lighting_.proposeLight(path.from, path.ray.time, path.stream, p.light, mixture.ownShare());
   if (!path.isProposed) return;
@@ -394,10 +288,10 @@ void VolumePathEstimator::proposeLight(Path& path, const DirectionMixture& mixtu
 }
 
 /// Traces the shadow ray of the last vertex, if one is proposed.
-void VolumePathEstimator::settle(Path& path) const {
+void VolumePathEstimator::settle(VolumePath& path) const {
   if (!path.isProposed) return;
   path.isProposed = false;
-  const Path::Proposal& p = path.proposed;
+  const VolumePath::Proposal& p = path.proposed;
   const Rgb share = transmittance(scene_, p.light.shadow, p.medium, path.numbers, path.state.rays);
   if (share.isBlack()) return;
   const Rgb added = p.light.value * share;
@@ -408,7 +302,7 @@ void VolumePathEstimator::settle(Path& path) const {
   turn.sample.lightFound = true;
 }
 
-void VolumePathEstimator::remember(Path& path, const GuidePoint& where,
+void VolumePathEstimator::remember(VolumePath& path, const GuidePoint& where,
                                    const DrawnDirection& d) const {
   if (path.memory->turns.size() >= kMaxTurns) return;
   GuidedMemory::Turn& turn = path.memory->turns.emplace_back();

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "integrators/direct_lighting.h"
-#include "integrators/guided_memory.h"
+#include "integrators/guided_roulette.h"
 #include "integrators/path_integrator.h"
 
 namespace lampyris {
@@ -27,34 +27,29 @@ class VolumePathEstimator final : public RadianceEstimator {
   std::unique_ptr<EstimatorMemory> makeMemory() const override;
 
  private:
-  struct Path;
   enum class Event : uint8_t { Ended, Scattered, Surface };
-  Rgb emission(const Path& path, const SurfaceInteraction& at) const;
-  Rgb outside(const Path& path) const;
-  void addDimmedEmission(Path& path, const std::optional<Hit>& hit, float tMax) const;
-  static MediumSample sampleDistance(Path& path, const Ray& segment);
-  Event throughMedium(Path& path, float tMax) const;
-  bool onSurface(Path& path, const Hit& hit) const;
-  void addEmission(Path& path, const Rgb& found) const;
-  bool survives(Path& path) const;
-  bool survivesByThroughput(Path& path) const;
-  bool survivesByPromise(Path& path, float scattered) const;
-  float endByThroughput(const Path& path, float throughput) const;
-  void goOn(Path& path, float chance) const;
-  bool shade(Path& path, const SurfaceInteraction& at, const Material* material) const;
-  bool enterBelow(Path& path, const SurfaceInteraction& at, const Material& material) const;
-  bool scatter(Path& path, const GuidePoint& where) const;
-  void proposeLight(Path& path, const class DirectionMixture& mixture,
+  Rgb emission(const VolumePath& path, const SurfaceInteraction& at) const;
+  Rgb outside(const VolumePath& path) const;
+  void addDimmedEmission(VolumePath& path, const std::optional<Hit>& hit, float tMax) const;
+  static MediumSample sampleDistance(VolumePath& path, const Ray& segment);
+  Event throughMedium(VolumePath& path, float tMax) const;
+  bool onSurface(VolumePath& path, const Hit& hit) const;
+  void addEmission(VolumePath& path, const Rgb& found) const;
+  bool shade(VolumePath& path, const SurfaceInteraction& at, const Material* material) const;
+  bool enterBelow(VolumePath& path, const SurfaceInteraction& at, const Material& material) const;
+  bool scatter(VolumePath& path, const GuidePoint& where) const;
+  void proposeLight(VolumePath& path, const class DirectionMixture& mixture,
                     const LocalGuide* guide) const;
-  void settle(Path& path) const;
-  static void preferRare(Path& path, float& uc);
-  const Medium* mediumTowards(const Path& path, const Vec3& w) const;
-  void remember(Path& path, const GuidePoint& where, const struct DrawnDirection& d) const;
+  void settle(VolumePath& path) const;
+  static void preferRare(VolumePath& path, float& uc);
+  const Medium* mediumTowards(const VolumePath& path, const Vec3& w) const;
+  void remember(VolumePath& path, const GuidePoint& where, const struct DrawnDirection& d) const;
 
   const Scene& scene_;
   const DirectLighting lighting_;
   const PathSettings settings_;
   const Guidance& guidance_;
+  const GuidedRoulette roulette_;
   const bool scattersBelow_;
 };
 
