@@ -47,7 +47,7 @@ class ByteReader {
     values.clear();
     const size_t count = getCount(sizeof(T));
     for (size_t i = 0; i < count; ++i) {
-      std::array<char, sizeof(T)> raw;
+      std::array<char, sizeof(T)> raw{};
       take(raw.data(), raw.size());
       values.push_back(std::bit_cast<T>(raw));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guiding/cell_tree.h"
 
+#include <cmath>
+
 namespace lampyris {
 
 namespace {
@@ -15,10 +17,7 @@ constexpr double kPartOfParent = 0.25;
 
 }  // namespace
 
-CellTree::CellTree(const Vec3& centre, float size, int recordsPerCell)
-    : centre_(centre), size_(size) {
-  addNode(RecordCell(recordsPerCell));
-}
+CellTree::CellTree(int recordsPerCell) { addNode(RecordCell(recordsPerCell)); }
 
 size_t CellTree::addNode(RecordCell cell) {
   Node& n = nodes_.emplace_back(Node{std::move(cell), false, {}});
@@ -26,23 +25,10 @@ size_t CellTree::addNode(RecordCell cell) {
   return nodes_.size() - 1;
 }
 
-int CellTree::descend(const Vec3& p, Vec3& centre, float& size) {
-  size *= 0.5f;
-  int child = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool upper = p[axis] >= centre[axis];
-    child |= upper << axis;
-    centre[axis] += (upper ? 0.5f : -0.5f) * size;
-  }
-  return child;
-}
-
-void CellTree::learn(const GuideSample& sample, size_t quota) {
-  Vec3 centre = centre_;
-  float size = size_;
+void CellTree::learn(const PlacedSample& sample, size_t quota) {
   size_t at = 0;
-  while (nodes_[at].divided) {
-    const auto child = static_cast<size_t>(descend(sample.p, centre, size));
+  for (int depth = 0; nodes_[at].divided; ++depth) {
+    const size_t child = sample.place.child(depth);
     int32_t next = nodes_[at].children[child];
     if (next == kNoChild) {
       const size_t copied = nodes_[at].cell.records().size();
@@ -53,39 +39,36 @@ void CellTree::learn(const GuideSample& sample, size_t quota) {
     }
     at = static_cast<size_t>(next);
   }
-  inserted_ += nodes_[at].cell.learn(sample, inserted_ < quota);
+  inserted_ += nodes_[at].cell.learn(sample.sample, inserted_ < quota);
 }
 
 struct CellTree::SeededCell {
   size_t node;
-  Vec3 centre;
-  float size;
   int depth;
-  std::vector<GuideSample> photons;
+  std::vector<PlacedSample> photons;
 };
 
 /// Level by level, so that parts start from what the whole has learned.
-void CellTree::seed(std::vector<GuideSample>& photons, size_t quota) {
+void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota) {
   std::vector<SeededCell> cells;
-  cells.push_back({0, centre_, size_, 0, std::move(photons)});
+  cells.push_back({0, 0, std::move(photons)});
   for (size_t i = 0; i < cells.size(); ++i) {
     const SeededCell at = std::move(cells[i]);
-    const auto count = static_cast<float>(at.photons.size());
+    const float width = std::ldexp(size, -at.depth);
+    const float perArea = static_cast<float>(at.photons.size()) / (width * width);
     RecordCell& cell = nodes_[at.node].cell;
     const size_t step = 1 + at.photons.size() / kDivideSeedAt;
     for (size_t k = 0; k < at.photons.size(); k += step) {
-      GuideSample s = at.photons[k];
-      s.radiance *= count / (at.size * at.size);
+      GuideSample s = at.photons[k].sample;
+      s.radiance *= perArea;
       inserted_ += cell.learn(s, inserted_ < quota);
     }
     cell.endPass();
-    if (at.photons.size() < kDivideSeedAt || at.depth >= kDeepest) continue;
+    if (at.photons.size() < kDivideSeedAt || at.depth >= CellPlace::kDeepest) continue;
     std::array<SeededCell, 8> parts;
-    for (const GuideSample& s : at.photons) {
-      Vec3 centre = at.centre;
-      float size = at.size;
-      SeededCell& part = parts[static_cast<size_t>(descend(s.p, centre, size))];
-      part.centre = centre, part.size = size, part.depth = at.depth + 1;
+    for (const PlacedSample& s : at.photons) {
+      SeededCell& part = parts[s.place.child(at.depth)];
+      part.depth = at.depth + 1;
       part.photons.push_back(s);
     }
     for (size_t child = 0; child < 8; ++child) {
@@ -106,7 +89,7 @@ void CellTree::endPass() {
   for (size_t i = 0; i < nodes_.size(); ++i) {  // parents come before their children
     Node& n = nodes_[i];
     n.cell.endPass();
-    if (n.cell.effectiveSamples() > kDivideAt && depth[i] < kDeepest) n.divided = true;
+    if (n.cell.effectiveSamples() > kDivideAt && depth[i] < CellPlace::kDeepest) n.divided = true;
     for (const int32_t child : n.children)
       if (child != kNoChild) depth[static_cast<size_t>(child)] = depth[i] + 1;
   }

@@ -2,26 +2,53 @@
 /// An octree of record cells: fine where many paths come by.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <glm/gtc/bitfield.hpp>
 #include <vector>
 
 #include "guiding/record_cell.h"
 
 namespace lampyris {
 
-class CellTree {
+/// Where a point lies in an octree of cells: which child at each depth.
+class CellPlace {
  public:
   /// How often a cell is halved at most.
   static constexpr int kDeepest = 6;
+
+  CellPlace() = default;
+  /// `at`: in the undivided cell, in its widths, from 0 to 1.
+  explicit CellPlace(const Vec3& at) {
+    constexpr float kCells = 1 << kDeepest;
+    const auto part = [](float x) {
+      return static_cast<uint32_t>(std::clamp(x * kCells, 0.f, kCells - 1));
+    };
+    bits_ = static_cast<uint32_t>(glm::bitfieldInterleave(part(at.x), part(at.y), part(at.z)));
+  }
+  /// 0 ≤ `depth` < kDeepest; from 0 to 7.
+  size_t child(int depth) const { return bits_ >> 3 * (kDeepest - 1 - depth) & 7; }
+
+ private:
+  uint32_t bits_ = 0;
+};
+
+struct PlacedSample {
+  GuideSample sample;
+  CellPlace place;
+};
+
+class CellTree {
+ public:
   static constexpr int32_t kNoChild = -1;
   using Children = std::array<int32_t, 8>;
 
-  CellTree(const Vec3& centre, float size, int recordsPerCell);
+  explicit CellTree(int recordsPerCell);
 
   /// Counts a sample within the root. Makes at most `quota` records in all until endPass().
-  void learn(const GuideSample& sample, size_t quota);
-  /// Starts from photons, whose `radiance` is power per cosine.
-  void seed(std::vector<GuideSample>& photons, size_t quota);
+  void learn(const PlacedSample& sample, size_t quota);
+  /// Starts from photons, whose `radiance` is power per cosine; `size` is the root's.
+  void seed(std::vector<PlacedSample>& photons, float size, size_t quota);
   /// Fits the cells; those that have seen enough will be divided.
   void endPass();
 
@@ -38,15 +65,10 @@ class CellTree {
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
-  /// Which child `p` lies in, and that child's centre and size in place of the parent's.
-  static int descend(const Vec3& p, Vec3& centre, float& size);
-
  private:
   struct SeededCell;
   size_t addNode(RecordCell cell);
 
-  Vec3 centre_;
-  float size_;
   std::vector<Node> nodes_;
   size_t inserted_ = 0;
 };

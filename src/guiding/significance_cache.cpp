@@ -66,7 +66,7 @@ std::unique_ptr<LocalGuide> SignificanceCache::makeLocal() const {
   return std::make_unique<LobeMixture>(*this);
 }
 
-SignificanceCache::Root SignificanceCache::rootOf(const Vec3& p, const Vec3& n) const {
+SignificanceCache::Place SignificanceCache::placeOf(const Vec3& p, const Vec3& n) const {
   // Far beyond, in endless media, all is one cell. Shifted by a third of a cell, so that walls on
   // the scene's bounds do not lie on the cells' faces.
   constexpr int kBits = 20;
@@ -76,21 +76,19 @@ SignificanceCache::Root SignificanceCache::rootOf(const Vec3& p, const Vec3& n) 
   uint64_t key = facing(n);
   for (int axis = 0; axis < 3; ++axis)
     key = key << kBits | static_cast<uint64_t>(static_cast<int64_t>(cell[axis] + kFarthest));
-  return {key, origin_ + (cell + (0.5f - 1 / 3.f)) * size_};
+  return {key, CellPlace(x - cell)};
 }
 
 SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) const {
   if (slots_.empty()) return {};
-  const Root root = rootOf(p, n);
+  const Place at = placeOf(p, n);
   const size_t mask = slots_.size() - 1;
-  size_t slot = slotOf(root.key);
-  while (slots_[slot].root != 0 && slots_[slot].key != root.key) slot = (slot + 1) & mask;
+  size_t slot = slotOf(at.key);
+  while (slots_[slot].root != 0 && slots_[slot].key != at.key) slot = (slot + 1) & mask;
   if (slots_[slot].root == 0) return {};
   const Node* node = &nodes_[slots_[slot].root - 1];
-  Vec3 centre = root.centre;
-  float size = size_;
-  while (true) {
-    const int32_t child = node->children[static_cast<size_t>(CellTree::descend(p, centre, size))];
+  for (int depth = 0; depth < CellPlace::kDeepest; ++depth) {
+    const int32_t child = node->children[at.place.child(depth)];
     if (child == CellTree::kNoChild) break;
     node = &nodes_[static_cast<size_t>(child)];
   }
@@ -104,18 +102,18 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
 void SignificanceCache::learn(std::span<const GuideSample> samples) {
   learned_ += samples.size();
   for (const GuideSample& s : samples) {
-    const Root root = rootOf(s.p, s.n);
-    const auto [at, isNew] = treeAt_.try_emplace(root.key, static_cast<uint32_t>(trees_.size()));
+    const Place place = placeOf(s.p, s.n);
+    const auto [at, isNew] = treeAt_.try_emplace(place.key, static_cast<uint32_t>(trees_.size()));
     if (isNew) {
       if (!(s.radiance > 0) || recordCount() >= static_cast<size_t>(settings_.maxRecords)) {
         treeAt_.erase(at);
         continue;
       }
-      trees_.emplace_back(root.centre, size_, settings_.nearest);
-      roots_.push_back(root);
+      trees_.emplace_back(settings_.nearest);
+      keys_.push_back(place.key);
       waiting_.emplace_back();
     }
-    waiting_[at->second].push_back(s);
+    waiting_[at->second].push_back({s, place.place});
   }
 }
 
@@ -134,7 +132,7 @@ void SignificanceCache::seed(std::span<const GuidePhoton> photons) {
       trees_.empty() ? 0 : static_cast<size_t>(settings_.maxRecords) / 2 / trees_.size();
   parallelFor(trees_.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      trees_[i].seed(waiting_[i], quota);
+      trees_[i].seed(waiting_[i], size_, quota);
       waiting_[i] = {};
     }
   });
@@ -149,7 +147,7 @@ void SignificanceCache::endPass() {
   const size_t first = trees_.empty() ? 0 : left % trees_.size();
   parallelFor(trees_.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      for (const GuideSample& s : waiting_[i]) trees_[i].learn(s, quota + (i < first));
+      for (const PlacedSample& s : waiting_[i]) trees_[i].learn(s, quota + (i < first));
       trees_[i].endPass();
       waiting_[i] = {};
     }
@@ -165,9 +163,9 @@ void SignificanceCache::freeze() {
   const size_t mask = slots_.size() - 1;
   for (size_t t = 0; t < trees_.size(); ++t) {
     const auto first = static_cast<int32_t>(nodes_.size());
-    size_t slot = slotOf(roots_[t].key);
+    size_t slot = slotOf(keys_[t]);
     while (slots_[slot].root != 0) slot = (slot + 1) & mask;
-    slots_[slot] = {roots_[t].key, static_cast<uint32_t>(first) + 1};
+    slots_[slot] = {keys_[t], static_cast<uint32_t>(first) + 1};
     for (const CellTree::Node& n : trees_[t].nodes()) {
       Node flat{n.children, static_cast<uint32_t>(lobes_.size()),
                 static_cast<uint32_t>(blocks_.size()), n.cell.normal()};
@@ -196,7 +194,7 @@ void SignificanceCache::freezeEven(Node& node) {
 std::string SignificanceCache::save() const {
   ByteWriter out;
   out.put(learned_);
-  out.put(roots_);
+  out.put(keys_);
   for (const CellTree& t : trees_) t.save(out);
   return out.bytes();
 }
@@ -204,12 +202,12 @@ std::string SignificanceCache::save() const {
 bool SignificanceCache::restore(std::string_view bytes) {
   ByteReader in(bytes);
   in.get(learned_);
-  in.get(roots_);
+  in.get(keys_);
   trees_.clear();
   treeAt_.clear();
-  for (const Root& r : roots_) {
-    treeAt_.emplace(r.key, static_cast<uint32_t>(trees_.size()));
-    trees_.emplace_back(r.centre, size_, settings_.nearest).restore(in);
+  for (const uint64_t key : keys_) {
+    treeAt_.emplace(key, static_cast<uint32_t>(trees_.size()));
+    trees_.emplace_back(settings_.nearest).restore(in);
   }
   waiting_.assign(trees_.size(), {});
   freeze();

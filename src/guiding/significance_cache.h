@@ -81,11 +81,11 @@ class SignificanceCache final : public Guide {
     uint64_t key = 0;
     uint32_t root = 0;  ///< index in nodes_ + 1; 0: empty
   };
-  struct Root {
-    uint64_t key = 0;  ///< the cell's numbers and which way it faces, exactly
-    Vec3 centre{0};
+  struct Place {
+    uint64_t key = 0;  ///< of the undivided cell: its numbers and which way it faces, exactly
+    CellPlace place;   ///< in it
   };
-  Root rootOf(const Vec3& p, const Vec3& n) const;
+  Place placeOf(const Vec3& p, const Vec3& n) const;
   size_t slotOf(uint64_t key) const { return mixBits(key) & (slots_.size() - 1); }
   void freeze();
   /// Makes Lobes::even of the node's lobes, the last ones.
@@ -95,9 +95,9 @@ class SignificanceCache final : public Guide {
   Vec3 origin_;
   float size_, invSize_;
   std::vector<CellTree> trees_;
-  std::vector<Root> roots_;                        ///< of the trees
+  std::vector<uint64_t> keys_;                     ///< of the trees
   std::unordered_map<uint64_t, uint32_t> treeAt_;  ///< by key
-  std::vector<std::vector<GuideSample>> waiting_;  ///< per tree: learned from at the pass's end
+  std::vector<std::vector<PlacedSample>> waiting_;  ///< per tree: learned from at the pass's end
 
   std::vector<Slot> slots_;  ///< a power of two, at most half full
   std::vector<Node> nodes_;
