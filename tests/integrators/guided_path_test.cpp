@@ -105,17 +105,20 @@ TEST(GuidedPath, ImageDoesNotDependOnThreads) {
 TEST(GuidedPath, GuidesWhereLightIsHardToFindAndKnowsIt) {
   // Variance over seeds, pixel by pixel.
   const auto variance = [&](const std::string& integrator) {
-    const auto a = render(integrator, kUplight, 1, 128), b = render(integrator, kUplight, 2, 128);
     double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    for (uint64_t seed = 1; seed < 13; seed += 2) {
+      const auto a = render(integrator, kUplight, seed, 64),
+                 b = render(integrator, kUplight, seed + 1, 64);
+      for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    }
     return sum;
   };
   const double ratio = variance(R"("guidedpath")") / variance(R"("volpath")");
-  EXPECT_LT(ratio, 0.7);
+  EXPECT_LT(ratio, 0.9);
   TinyScene scene(tinyScene(view(R"("guidedpath")"), kUplight));
-  scene.render(128);
+  scene.render(64);
   EXPECT_NEAR(scene.statistics().value("guide", "variance with the guide over that without"), ratio,
-              0.25 * ratio);
+              0.3 * ratio);
   EXPECT_EQ(scene.statistics().value("guide", "retired"), 0);
 }
 
