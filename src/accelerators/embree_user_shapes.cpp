@@ -24,6 +24,15 @@ bool misses(const RTCRay& ray, const Ball& ball) {
 
 }  // namespace
 
+size_t countBalls(const std::vector<Primitive>& primitives) {
+  size_t count = 0;
+  for (const Primitive& p : primitives)
+    if (p.shape->triangles().triangleCount == 0 && p.shape->elementCount() > 0 &&
+        std::isfinite(p.shape->ball(0).radius))
+      count += p.shape->elementCount();
+  return count;
+}
+
 UserShapes::UserShapes(const std::vector<Primitive>& primitives) : primitives_(primitives) {
   std::vector<Vec3> centres;
   for (uint32_t i = 0; i < primitives.size(); ++i) {

@@ -13,6 +13,9 @@
 
 namespace lampyris::embree {
 
+/// Elements of shapes without triangles that Shape::ball() bounds.
+size_t countBalls(const std::vector<Primitive>& primitives);
+
 class UserShapes {
  public:
   struct Element {

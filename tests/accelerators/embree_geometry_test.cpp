@@ -159,6 +159,40 @@ TEST(EmbreeGeometry, PassesNoSphereByThatARayMeets) {
   }
 }
 
+TEST(EmbreeGeometry, VeryManySpheresAreMetLikeFew) {
+  const auto mesh = makeShape("trianglemesh", bumpyMesh(6), Transform());
+  std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<Primitive> spheres;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    const Vec3 center(6 * uniform(8, i, 0), 6 * uniform(8, i, 1), 2 + 4 * uniform(8, i, 2));
+    shapes.push_back(
+        makeShape("sphere", Parameters().floats("radius", {0.03f}), Transform::translate(center)));
+    spheres.push_back(of(shapes.back()));
+  }
+  std::vector<Primitive> all = spheres;
+  all.push_back(of(mesh));
+  const auto direct = makeEmbreeGeometry({all, {}, {}});
+  const auto instanced =
+      makeEmbreeGeometry({{of(mesh)}, {{spheres}}, {{0, Transform::translate({0, 0, 0})}}});
+  int hits = 0;
+  for (uint64_t i = 0; i < 150; ++i) {
+    const Ray ray = randomRay(totalBounds(*mesh), 9, i);
+    float nearest = kInfinity;
+    for (const Primitive& p : all)
+      if (const auto hit = bruteForce(*p.shape, ray)) nearest = std::min(nearest, hit->hit.t);
+    for (const Geometry* g : {direct.get(), instanced.get()}) {
+      const auto hit = g->intersect(ray);
+      EXPECT_EQ(hit.has_value(), std::isfinite(nearest));
+      EXPECT_EQ(g->occluded(ray), std::isfinite(nearest));
+      if (hit) {
+        EXPECT_NEAR(hit->shape.t, nearest, 1e-4f * nearest);
+      }
+    }
+    hits += std::isfinite(nearest);
+  }
+  EXPECT_GT(hits, 100);
+}
+
 TEST(EmbreeGeometry, EmptyAndTinyScenes) {
   const auto none = makeEmbreeGeometry({});
   EXPECT_FALSE(none->intersect({{0, 0, 0}, {0, 0, 1}}));
