@@ -95,8 +95,8 @@ class SignificanceCache final : public Guide {
   Vec3 origin_;
   float size_, invSize_;
   std::vector<CellTree> trees_;
-  std::vector<uint64_t> keys_;                     ///< of the trees
-  std::unordered_map<uint64_t, uint32_t> treeAt_;  ///< by key
+  std::vector<uint64_t> keys_;                      ///< of the trees
+  std::unordered_map<uint64_t, uint32_t> treeAt_;   ///< by key
   std::vector<std::vector<PlacedSample>> waiting_;  ///< per tree: learned from at the pass's end
 
   std::vector<Slot> slots_;  ///< a power of two, at most half full
