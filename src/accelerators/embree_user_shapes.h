@@ -20,7 +20,7 @@ class UserShapes {
  public:
   struct Element {
     uint32_t primitive, element;
-    auto operator<=>(const Element&) const = default;
+    auto operator<=>(const Element&) const = default;  // NOLINT(modernize-use-nullptr): is none
   };
   /// All shapes of `primitives` without triangles; they must stay where they are.
   explicit UserShapes(const std::vector<Primitive>& primitives);
