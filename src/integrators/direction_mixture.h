@@ -21,7 +21,6 @@ class ScatteringPoint final : public DirectionWeight {
     if (!bsdf->isDiffuse() || bsdf->transmits()) return -1;
     return bsdf->f(at_.wo, faceForward(bsdf->frame().z, at_.wo)).luminance();
   }
-  const LightSampleContext& at() const { return at_; }
 
  private:
   const LightSampleContext& at_;

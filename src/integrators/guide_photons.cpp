@@ -18,6 +18,8 @@ namespace lampyris {
 namespace {
 
 constexpr size_t kChunk = 4096;
+/// Bounces of a photon, at most: what is to be known first is where light gets to by few.
+constexpr int kMostBounces = 6;
 /// Share of the photons that only look where to aim.
 constexpr int kPilots = 4;
 
@@ -126,6 +128,7 @@ Aim aimAtSpecular(const Scene& scene, size_t first, size_t count, int maxDepth) 
 std::vector<GuidePhoton> traceGuidePhotons(const Scene& scene, int count, int maxDepth) {
   const auto photons = static_cast<size_t>(count), pilots = photons / kPilots;
   const size_t rest = photons - pilots;
+  maxDepth = std::min(maxDepth, kMostBounces);
   // With numbers of their own: cells chosen by the photons that count would dim these.
   const Aim aim = aimAtSpecular(scene, rest, pilots, maxDepth);
   const PhotonNumbers numbers(aim);

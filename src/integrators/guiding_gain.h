@@ -4,9 +4,8 @@
 ///
 /// A way that is drawn with density p, and without a guide would be drawn with density q, and that
 /// contributes f, has the estimate C = f/p. Without a guide the second moment is ∫ f²/q =
-/// E[C² p/q]: each sample tells its share of both (importance sampling of the second moment, as
-/// in Veach 1997, §2.5.2). As both are of the same samples, their ratio is known well long before
-/// either is.
+/// E[C² p/q]: each sample tells its share of both. As both are of the same samples, their ratio is
+/// known well long before either is.
 #pragma once
 
 #include "core/spectrum.h"
