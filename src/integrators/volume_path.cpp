@@ -3,7 +3,8 @@
 // directions from the mixture of the BSDF or phase function and the guide. Light sampling and the
 // path's next ray are joined by multiple importance sampling with the mixture's own part; the next
 // ray serves as the other half, so no ray is traced for it alone. Cost a vertex: one shadow ray,
-// one ray, and a look-up of the guide.
+// one ray, and a look-up of the guide; the shadow ray comes second, while memory fetches what the
+// other one has hit.
 #include "integrators/volume_path.h"
 
 #include "integrators/aov_surface.h"
@@ -199,7 +200,7 @@ void VolumePathEstimator::addEmission(VolumePath& path, const Rgb& found) const 
     path.memory->turns.back().before += added;
 }
 
-/// Adds the light-sampled radiance of a vertex and sets the next ray; false: the path ends.
+/// Draws a light for a vertex, whose shadow ray waits, and sets the next ray; false: the path ends.
 bool VolumePathEstimator::scatter(VolumePath& path, const GuidePoint& where) const {
   const Bsdf* const bsdf = path.from.bsdf;
   const bool specular = bsdf && bsdf->isSpecular();
