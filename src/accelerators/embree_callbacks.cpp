@@ -67,8 +67,10 @@ void filter(const RTCFilterFunctionNArguments* args, Query query) {
 void bounds(const RTCBoundsFunctionArguments* args) {
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
   buildBegun.take();
-  const UserShapes::Element e = shapes[args->primID];
-  const Bounds3 b = shapes.primitive(e).shape->bounds(e.element);
+  Bounds3 b;
+  shapes.forEach(args->primID, [&](const UserShapes::Element& e) {
+    b.extend(shapes.primitive(e).shape->bounds(e.element));
+  });
   // Embree's box test is in single precision, the shapes' intersections are not.
   const Vec3 pad = 4 * kMachineEpsilon * glm::max(absComponents(b.min), absComponents(b.max));
   RTCBounds& out = *args->bounds_o;
@@ -82,25 +84,26 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
-  if (shapes.passesBy(query.ray, args->primID)) return;
-  const UserShapes::Element e = shapes[args->primID];
-  const auto hit = firstHit(shapes.primitive(e), e.element, query.ray, Query::Nearest);
-  if (!hit) return;
-  query.ray.tfar = hit->t;
-  query.hit.u = hit->uv.x;
-  query.hit.v = hit->uv.y;
-  query.hit.primID = e.element;
-  query.hit.geomID = e.primitive;
-  query.hit.instID[0] = args->context->instID[0];
+  shapes.forEachMet(args->primID, query.ray, [&](const UserShapes::Element& e) {
+    const auto hit = firstHit(shapes.primitive(e), e.element, query.ray, Query::Nearest);
+    if (!hit) return;
+    query.ray.tfar = hit->t;
+    query.hit.u = hit->uv.x;
+    query.hit.v = hit->uv.y;
+    query.hit.primID = e.element;
+    query.hit.geomID = e.primitive;
+    query.hit.instID[0] = args->context->instID[0];
+  });
 }
 
 void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
   const UserShapes& shapes = shapesOf(args->geometryUserPtr);
-  if (shapes.passesBy(ray, args->primID)) return;
-  const UserShapes::Element e = shapes[args->primID];
-  if (firstHit(shapes.primitive(e), e.element, ray, Query::Occlusion)) ray.tfar = -kInfinity;
+  shapes.forEachMet(args->primID, ray, [&](const UserShapes::Element& e) {
+    if (ray.tfar < 0) return;
+    if (firstHit(shapes.primitive(e), e.element, ray, Query::Occlusion)) ray.tfar = -kInfinity;
+  });
 }
 
 void filterNearest(const RTCFilterFunctionNArguments* args) { filter(args, Query::Nearest); }

@@ -8,25 +8,12 @@
 
 namespace lampyris::embree {
 
-namespace {
-
-/// Where Embree's nodes of single balls do not fit into the processor's cache, leaves of four are
-/// faster: 30,000 balls on walls by 3 %, 100,000 by 5 to 7 %, 100,000 that fill a room by 1 %. With
-/// 1,500 in a room they are 1 % slower.
-constexpr size_t kManyBalls = 16384;
-
-}  // namespace
-
-Device& Device::forBalls(size_t count) {
-  if (count >= kManyBalls) {
-    static Device device("object_accel_max_leaf_size=4");
-    return device;
-  }
-  static Device device(nullptr);
+Device& Device::instance() {
+  static Device device;
   return device;
 }
 
-Device::Device(const char* settings) : device_(rtcNewDevice(settings)) {
+Device::Device() : device_(rtcNewDevice(nullptr)) {
   if (!device_)
     throw std::runtime_error(fmt::format("Embree cannot start on this processor (error {})",
                                          static_cast<int>(rtcGetDeviceError(nullptr))));

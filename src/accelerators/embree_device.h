@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Embree's devices: one for most scenes, and one for those of very many balls.
+/// Embree's device: one per process, as Embree wants it.
 #pragma once
 
 #include <embree3/rtcore.h>
 
-#include <cstddef>
 #include <mutex>
 #include <string>
 
@@ -12,9 +11,8 @@ namespace lampyris::embree {
 
 class Device {
  public:
-  /// For a scene with so many elements that Shape::ball() bounds. What is built with one device can
-  /// not be used with the other. Throws if Embree cannot start.
-  static Device& forBalls(size_t count);
+  /// Throws if Embree cannot start.
+  static Device& instance();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -29,7 +27,7 @@ class Device {
     std::string message;
     RTCError code = RTC_ERROR_NONE;
   };
-  explicit Device(const char* settings);
+  Device();
   ~Device() { rtcReleaseDevice(device_); }
   static void onError(void* user, RTCError code, const char* message);
 

@@ -4,81 +4,95 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/bitfield.hpp>
+#include <tuple>
 
 namespace lampyris::embree {
 
 namespace {
 
-/// Whether all of the ray is outside of the ball, rounding of what is computed here included.
-bool misses(const RTCRay& ray, const Ball& ball) {
-  const Vec3 d(ray.dir_x, ray.dir_y, ray.dir_z);
-  const Vec3 toCenter = ball.center - Vec3(ray.org_x, ray.org_y, ray.org_z);
-  const float d2 = dot(d, d);
-  constexpr float kLeast = 1e-20f;  // products of smaller ones may underflow
-  if (!(d2 > kLeast)) return false;
-  const float nearest = std::clamp(dot(toCenter, d) / d2, 0.f, ray.tfar);
-  const Vec3 off = nearest * d - toCenter;
-  const float error = 16 * kMachineEpsilon * (length(toCenter) + nearest * std::sqrt(d2));
-  return dot(off, off) > sqr(ball.radius + error);
+float boxArea(const Vec3& extent) {
+  return 2 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
 }
 
 }  // namespace
 
-size_t countBalls(const std::vector<Primitive>& primitives) {
-  size_t count = 0;
-  for (const Primitive& p : primitives)
-    if (p.shape->triangles().triangleCount == 0 && p.shape->elementCount() > 0 &&
-        std::isfinite(p.shape->ball(0).radius))
-      count += p.shape->elementCount();
-  return count;
-}
+struct UserShapes::Placed {
+  Element element;
+  Vec3 centre;
+  Ball ball;
+  uint64_t code = 0;  ///< place along the curve
+};
 
 UserShapes::UserShapes(const std::vector<Primitive>& primitives) : primitives_(primitives) {
-  std::vector<Vec3> centres;
+  std::vector<Placed> all;
   for (uint32_t i = 0; i < primitives.size(); ++i) {
     const Shape& shape = *primitives[i].shape;
     if (shape.triangles().triangleCount > 0) continue;
     for (uint32_t element = 0; element < shape.elementCount(); ++element) {
       const Bounds3 b = shape.bounds(element);
-      if (b.empty()) continue;
-      centres.push_back(b.centroid());
-      elements_.push_back({i, element});
+      if (!b.empty()) all.push_back({{i, element}, b.centroid(), shape.ball(element)});
     }
   }
-  sortInSpace(centres);
-  findBalls();
+  sortInSpace(all);
+  const auto balls = std::stable_partition(
+      all.begin(), all.end(), [](const Placed& p) { return !std::isfinite(p.ball.radius); });
+  for (auto p = all.begin(); p != balls; ++p) elements_.push_back(p->element);
+  singles_ = elements_.size();
+  group({balls, all.end()});
 }
 
-void UserShapes::sortInSpace(const std::vector<Vec3>& centres) {
+void UserShapes::sortInSpace(std::vector<Placed>& elements) {
   Bounds3 all;
-  for (const Vec3& p : centres) all.extend(p);
+  for (const Placed& p : elements) all.extend(p.centre);
   constexpr float kCells = 1 << 20;  // an axis; three times that many bits fit into a code
   const float size = maxComponent(all.extent());
   const float scale = size > 0 ? kCells / size : 0;
-
-  std::vector<std::pair<uint64_t, Element>> order(centres.size());
-  for (size_t i = 0; i < centres.size(); ++i) {
+  for (Placed& p : elements) {
     // Scaled first: a difference may be infinite.
-    const Vec3 at = centres[i] * scale - all.min * scale;
+    const Vec3 at = p.centre * scale - all.min * scale;
     const glm::uvec3 cell(glm::clamp(at, 0.f, kCells));
-    order[i] = {glm::bitfieldInterleave(cell.x, cell.y, cell.z), elements_[i]};
+    p.code = glm::bitfieldInterleave(cell.x, cell.y, cell.z);
   }
-  std::sort(order.begin(), order.end());
-  for (size_t i = 0; i < order.size(); ++i) elements_[i] = order[i].second;
+  std::sort(elements.begin(), elements.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.code, a.element) < std::tie(b.code, b.element);
+  });
 }
 
-void UserShapes::findBalls() {
-  balls_.reserve(elements_.size());
-  bool any = false;
-  for (const Element& e : elements_) {
-    balls_.push_back(primitive(e).shape->ball(e.element));
-    any = any || std::isfinite(balls_.back().radius);
+/// Whether they pay as a group. Balls far from each other do not: rays that meet the group's box
+/// seldom meet any of them, which Embree's nodes tell sooner. (1,500 lamps in a room, with a ratio
+/// of 220, took 2 to 4 % longer in groups, 1,000 to 100,000 with ratios of 10 to 16 take less.)
+bool UserShapes::areClose(std::span<const Placed> balls) {
+  constexpr float kMostArea = 50;
+  if (balls.size() > BallGroup::kSize) return false;
+  if (balls.size() == 1) return true;
+  Bounds3 box;
+  float area = 0;
+  for (const Placed& p : balls) {
+    box.extend({p.ball.center - p.ball.radius, p.ball.center + p.ball.radius});
+    area += boxArea(Vec3(2 * p.ball.radius));
   }
-  if (!any) balls_ = {};
+  return boxArea(box.extent()) <= kMostArea * area;
 }
 
-bool UserShapes::passesBy(const RTCRay& ray, uint32_t index) const {
-  return !balls_.empty() && misses(ray, balls_[index]);
+/// Halves space until few balls, close to each other, are in a part.
+void UserShapes::group(std::span<const Placed> balls) {
+  if (balls.empty()) return;
+  if (areClose(balls)) {
+    const size_t first = elements_.size();
+    elements_.resize(first + BallGroup::kSize);
+    BallGroup& g = groups_.emplace_back(BallGroup());
+    for (size_t i = 0; i < balls.size(); ++i) {
+      g.set(i, balls[i].ball);
+      elements_[first + i] = balls[i].element;
+    }
+    return;
+  }
+  const uint64_t bit = std::bit_floor(balls.front().code ^ balls.back().code);
+  const auto half = std::partition_point(balls.begin(), balls.end(),
+                                         [bit](const Placed& p) { return (p.code & bit) == 0; });
+  const size_t first = bit != 0 ? static_cast<size_t>(half - balls.begin()) : balls.size() / 2;
+  group(balls.first(first));
+  group(balls.subspan(first));
 }
 
 }  // namespace lampyris::embree
