@@ -54,20 +54,32 @@ const WideLightBVHNode* WideLightBVH::alikeCluster(const WideLightBVHNode& node,
   return child.clusterLights > 0 ? &child : nullptr;
 }
 
-SampledLight WideLightBVH::drawByIntensity(const WideLightBVHNode& cluster, double u,
-                                           double count) const {
-  const uint32_t first = cluster.firstLight, last = first + cluster.clusterLights - 1;
+WideLightBVH::Descent WideLightBVH::endAt(const WideLightBVHNode& cluster, double u,
+                                          double count) const {
   // Where it is if all are as strong: not far from where it is.
-  uint32_t place = std::min(first + static_cast<uint32_t>(u * cluster.clusterLights), last);
+  const uint32_t first = cluster.firstLight, last = first + cluster.clusterLights - 1;
+  const uint32_t place = std::min(first + static_cast<uint32_t>(u * cluster.clusterLights), last);
+  prefetchLine(&lights_[place]);
   if (!cluster.even) {
-    prefetchLine(&lights_[place]);
     prefetchLine(&intensitiesBefore_[place]);
-    const Units units = unitsOf(first, cluster.clusterLights);
-    const auto at = units.begin + static_cast<uint32_t>(u * (units.end - units.begin));
+    prefetchLine(&intensitiesBefore_[first]);
+    prefetchLine(&intensitiesBefore_[last + 1]);
+  }
+  return {&cluster, place, u, count};
+}
+
+SampledLight WideLightBVH::resolve(const Descent& end) const {
+  uint32_t place = end.place;
+  if (!end.cluster) return {lights_[place], static_cast<float>(end.count)};
+  const WideLightBVHNode& cluster = *end.cluster;
+  if (!cluster.even) {
+    const uint32_t last = cluster.firstLight + cluster.clusterLights - 1;
+    const Units units = unitsOf(cluster.firstLight, cluster.clusterLights);
+    const auto at = units.begin + static_cast<uint32_t>(end.u * (units.end - units.begin));
     while (intensitiesBefore_[place] > at) --place;
     while (place < last && intensitiesBefore_[place + 1] <= at) ++place;
   }
-  return {lights_[place], static_cast<float>(count * shareOfIntensity(cluster, place))};
+  return {lights_[place], static_cast<float>(end.count * shareOfIntensity(cluster, place))};
 }
 
 double WideLightBVH::shareOfIntensity(const WideLightBVHNode& cluster, uint32_t place) const {
@@ -84,11 +96,13 @@ WideLightBVH::Units WideLightBVH::unitsOf(uint32_t firstLight, uint32_t count) c
 
 std::optional<SampledLight> WideLightBVH::sample(const LightReceiver& at, double u) const {
   if (nodes_.empty() || !at.receives()) return std::nullopt;
-  return descend(0, at, u, 1);
+  std::optional<SampledLight> drawn;
+  if (const auto end = descend(0, at, u, 1)) drawn = resolve(*end);
+  return drawn;
 }
 
-std::optional<SampledLight> WideLightBVH::descend(uint32_t number, const LightReceiver& at,
-                                                  double u, double count) const {
+std::optional<WideLightBVH::Descent> WideLightBVH::descend(uint32_t number, const LightReceiver& at,
+                                                           double u, double count) const {
   while (true) {
     const WideLightBVHNode& node = nodes_[number];
     prefetchBelow(node);
@@ -96,10 +110,9 @@ std::optional<SampledLight> WideLightBVH::descend(uint32_t number, const LightRe
     if (!(weights.total() > 0)) return std::nullopt;
     const size_t lane = choose(weights, u);
     count *= static_cast<double>(weights.of[lane]) / weights.total();
-    if (node.isLeaf(lane))
-      return SampledLight{lights_[node.light(lane)], static_cast<float>(count)};
+    if (node.isLeaf(lane)) return Descent{nullptr, node.light(lane), u, count};
     if (const WideLightBVHNode* const cluster = alikeCluster(node, weights, lane))
-      return drawByIntensity(*cluster, u, count);
+      return endAt(*cluster, u, count);
     number = node.child(lane);
   }
 }

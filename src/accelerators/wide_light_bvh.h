@@ -99,13 +99,21 @@ class WideLightBVH {
     uint32_t begin, end;
   };
   Units unitsOf(uint32_t firstLight, uint32_t count) const;
-  SampledLight drawByIntensity(const WideLightBVHNode& cluster, double u, double count) const;
-  /// The probability of drawByIntensity() for the light at that place.
+  /// Where a descent ends: at one light, or at a cluster from which one is yet to be drawn by
+  /// intensity. What resolve() reads is being fetched.
+  struct Descent {
+    const WideLightBVHNode* cluster;  ///< null: at one light
+    uint32_t place;                   ///< in the list of lights; in a cluster about there
+    double u, count;
+  };
+  Descent endAt(const WideLightBVHNode& cluster, double u, double count) const;
+  SampledLight resolve(const Descent& end) const;
+  /// The probability of the draw by intensity for the light at that place.
   double shareOfIntensity(const WideLightBVHNode& cluster, uint32_t place) const;
   /// Fetches all that a choice among the node's children may need next, while it is made.
   void prefetchBelow(const WideLightBVHNode& node) const;
-  std::optional<SampledLight> descend(uint32_t node, const LightReceiver& at, double u,
-                                      double count) const;
+  std::optional<Descent> descend(uint32_t node, const LightReceiver& at, double u,
+                                 double count) const;
   void split(uint32_t node, uint32_t budget, Cut& cut) const;
   /// How many lights the whole tree may give to the point.
   uint32_t rootBudget(const LightReceiver& at, const LightSplitting& splitting) const;

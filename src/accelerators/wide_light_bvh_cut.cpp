@@ -14,6 +14,7 @@
 #include "accelerators/wide_light_bvh.h"
 #include "accelerators/wide_light_bvh_importance.h"
 #include "accelerators/wide_light_bvh_way.h"
+#include "core/prefetch.h"
 
 namespace lampyris {
 namespace {
@@ -139,8 +140,9 @@ LightSplitting LightSplitting::forPoint(float worth) const {
 
 class WideLightBVH::Cut {
  public:
-  Cut(const LightReceiver& receiver, double first, float splitRatio, SampledLights& lights)
-      : at(receiver), ratio(splitRatio), out(lights), first_(first) {}
+  Cut(const WideLightBVH& tree, const LightReceiver& receiver, double first, float splitRatio,
+      SampledLights& lights)
+      : at(receiver), ratio(splitRatio), tree_(tree), out_(lights), first_(first) {}
 
   /// A variate for each cluster: a sequence of Weyl, stratified whatever their number.
   double next() {
@@ -148,13 +150,28 @@ class WideLightBVH::Cut {
     return u - std::floor(u);
   }
 
+  /// Its light comes into the cut a few descents later, when memory has it.
+  void add(const std::optional<Descent>& end) {
+    if (!end) return;
+    if (ends_ - resolved_ == pending_.size()) resolveNext();
+    pending_[ends_++ % pending_.size()] = *end;
+  }
+  void finish() {
+    while (resolved_ < ends_) resolveNext();
+  }
+
   const LightReceiver& at;
   const float ratio;
-  SampledLights& out;
 
  private:
+  void resolveNext() { out_.push_back(tree_.resolve(pending_[resolved_++ % pending_.size()])); }
+
+  const WideLightBVH& tree_;
+  SampledLights& out_;
   double first_;
   uint32_t count_ = 0;
+  std::array<Descent, 4> pending_;
+  uint32_t ends_ = 0, resolved_ = 0;
 };
 
 uint32_t WideLightBVH::rootBudget(const LightReceiver& at, const LightSplitting& splitting) const {
@@ -170,13 +187,14 @@ void WideLightBVH::sampleCut(const LightReceiver& at, double u, const LightSplit
     for (const LightId light : lights_) out.push_back({light, 1});
     return;
   }
-  Cut cut(at, u, splitting.ratio(), out);
+  Cut cut(*this, at, u, splitting.ratio(), out);
   split(0, rootBudget(at, splitting), cut);
+  cut.finish();
 }
 
 void WideLightBVH::split(uint32_t number, uint32_t budget, Cut& cut) const {
   if (budget <= 1) {
-    if (const auto drawn = descend(number, cut.at, cut.next(), 1)) cut.out.push_back(*drawn);
+    cut.add(descend(number, cut.at, cut.next(), 1));
     return;
   }
   const WideLightBVHNode& node = nodes_[number];
@@ -193,9 +211,10 @@ void WideLightBVH::split(uint32_t number, uint32_t budget, Cut& cut) const {
     }
     const double count = static_cast<double>(weights.of[lane]) / shares.weight[g];
     if (node.isLeaf(lane)) {
-      cut.out.push_back({lights_[node.light(lane)], static_cast<float>(count)});
-    } else if (const auto drawn = descend(node.child(lane), cut.at, u, count)) {
-      cut.out.push_back(*drawn);
+      prefetchLine(&lights_[node.light(lane)]);
+      cut.add(Descent{nullptr, node.light(lane), u, count});
+    } else {
+      cut.add(descend(node.child(lane), cut.at, u, count));
     }
   }
 }
