@@ -16,7 +16,7 @@ namespace lampyris {
 namespace {
 
 /// Samples that a pass may leave to be learned from: bounds memory and time.
-constexpr double kSamplesPerPass = 1 << 18;
+constexpr double kSamplesPerPass = 1 << 17;
 /// 16 samples a pixel: a guide is not judged by what it did while it knew less.
 constexpr int kPassesBeforeRetiring = 5;
 /// Until a first pass has shown how many a path leaves.
