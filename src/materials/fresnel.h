@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/math.h"
@@ -81,8 +82,11 @@ struct ConductorFresnel {
   Rgb eta, k;
   Rgb operator()(float cosI) const {
     const float c = std::min(std::abs(cosI), 1.f);
-    return {fresnelConductor(c, eta.r, k.r), fresnelConductor(c, eta.g, k.g),
-            fresnelConductor(c, eta.b, k.b)};
+    // Four channels, so that compilers take them all in one vector.
+    const std::array<float, 4> n{eta.r, eta.g, eta.b, eta.b}, absorption{k.r, k.g, k.b, k.b};
+    std::array<float, 4> share;
+    for (size_t i = 0; i < share.size(); ++i) share[i] = fresnelConductor(c, n[i], absorption[i]);
+    return {share[0], share[1], share[2]};
   }
 };
 
