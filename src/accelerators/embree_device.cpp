@@ -8,12 +8,25 @@
 
 namespace lampyris::embree {
 
-Device& Device::instance() {
-  static Device device;
+namespace {
+
+/// Where Embree's nodes of balls and their groups do not fit into the processor's cache, leaves of
+/// four are faster: 100,000 balls on walls by 3 %, 100,000 that fill a room not. With 1,500 in a
+/// room they are 5 % slower.
+constexpr size_t kManyBalls = 16384;
+
+}  // namespace
+
+Device& Device::forBalls(size_t count) {
+  if (count >= kManyBalls) {
+    static Device device("object_accel_max_leaf_size=4");
+    return device;
+  }
+  static Device device(nullptr);
   return device;
 }
 
-Device::Device() : device_(rtcNewDevice(nullptr)) {
+Device::Device(const char* settings) : device_(rtcNewDevice(settings)) {
   if (!device_)
     throw std::runtime_error(fmt::format("Embree cannot start on this processor (error {})",
                                          static_cast<int>(rtcGetDeviceError(nullptr))));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Embree's device: one per process, as Embree wants it.
+/// Embree's devices: one for most scenes, and one for those of very many balls.
 #pragma once
 
 #include <embree3/rtcore.h>
 
+#include <cstddef>
 #include <mutex>
 #include <string>
 
@@ -11,8 +12,9 @@ namespace lampyris::embree {
 
 class Device {
  public:
-  /// Throws if Embree cannot start.
-  static Device& instance();
+  /// For a scene with so many elements that Shape::ball() bounds. What is built with one device can
+  /// not be used with the other. Throws if Embree cannot start.
+  static Device& forBalls(size_t count);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -27,7 +29,7 @@ class Device {
     std::string message;
     RTCError code = RTC_ERROR_NONE;
   };
-  Device();
+  explicit Device(const char* settings);
   ~Device() { rtcReleaseDevice(device_); }
   static void onError(void* user, RTCError code, const char* message);
 

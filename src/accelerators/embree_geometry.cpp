@@ -29,17 +29,17 @@ struct GeometryReleaser {
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneReleaser>;
 using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, GeometryReleaser>;
 
-SceneHandle newScene() {
-  SceneHandle scene(rtcNewScene(Device::instance()));
-  Device::instance().check();
+SceneHandle newScene(Device& device) {
+  SceneHandle scene(rtcNewScene(device));
+  device.check();
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   return scene;
 }
 
-GeometryHandle newGeometry(RTCGeometryType type) {
-  GeometryHandle geometry(rtcNewGeometry(Device::instance(), type));
-  Device::instance().check();
+GeometryHandle newGeometry(Device& device, RTCGeometryType type) {
+  GeometryHandle geometry(rtcNewGeometry(device, type));
+  device.check();
   return geometry;
 }
 
@@ -50,15 +50,16 @@ void setTriangles(RTCGeometry geometry, const TriangleBuffers& t) {
                              3 * sizeof(uint32_t), t.triangleCount);
 }
 
-void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
+void attach(Device& device, RTCScene scene, RTCGeometry geometry, unsigned id) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, id);
-  Device::instance().check();
+  device.check();
 }
 
 /// The primitive must stay where it is.
-GeometryHandle meshGeometry(const Primitive& primitive, const TriangleBuffers& triangles) {
-  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+GeometryHandle meshGeometry(Device& device, const Primitive& primitive,
+                            const TriangleBuffers& triangles) {
+  GeometryHandle geometry = newGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree hands the pointer back as const data.
   rtcSetGeometryUserData(geometry.get(), const_cast<Primitive*>(&primitive));
   setTriangles(geometry.get(), triangles);
@@ -70,8 +71,8 @@ GeometryHandle meshGeometry(const Primitive& primitive, const TriangleBuffers& t
 }
 
 /// The shapes must stay where they are.
-GeometryHandle userGeometry(const embree::UserShapes& shapes) {
-  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
+GeometryHandle userGeometry(Device& device, const embree::UserShapes& shapes) {
+  GeometryHandle geometry = newGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserData(geometry.get(), const_cast<embree::UserShapes*>(&shapes));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(shapes.size()));
   rtcSetGeometryBoundsFunction(geometry.get(), embree::bounds, nullptr);
@@ -81,25 +82,25 @@ GeometryHandle userGeometry(const embree::UserShapes& shapes) {
 }
 
 /// Meshes take the numbers of their primitives, all other shapes together `userId`.
-SceneHandle buildScene(const std::vector<Primitive>& primitives, size_t userId,
+SceneHandle buildScene(Device& device, const std::vector<Primitive>& primitives, size_t userId,
                        std::deque<embree::UserShapes>& userShapes) {
-  SceneHandle scene = newScene();
+  SceneHandle scene = newScene(device);
   for (uint32_t i = 0; i < primitives.size(); ++i) {
     const TriangleBuffers triangles = primitives[i].shape->triangles();
     if (triangles.triangleCount > 0)
-      attach(scene.get(), meshGeometry(primitives[i], triangles).get(), i);
+      attach(device, scene.get(), meshGeometry(device, primitives[i], triangles).get(), i);
   }
   const embree::UserShapes& others = userShapes.emplace_back(primitives);
   if (others.size() == 0) return scene;
-  attach(scene.get(), userGeometry(others).get(), static_cast<unsigned>(userId));
+  attach(device, scene.get(), userGeometry(device, others).get(), static_cast<unsigned>(userId));
   return scene;
 }
 
-void commit(RTCScene scene) {
+void commit(Device& device, RTCScene scene) {
   embree::buildBegun.give();
   rtcCommitScene(scene);
   embree::buildDone.take();
-  Device::instance().check();
+  device.check();
 }
 
 /// Embree takes coordinates below 1.844e18 and may end the process on others.
@@ -114,6 +115,13 @@ float enlargement(const glm::mat4& m, bool singular) {
   float most = 0;
   for (int c = 0; c < 3; ++c) most = std::max(most, maxComponent(absComponents(Vec3(m[c]))));
   return 3 * most;
+}
+
+/// Elements that balls bound, in definitions of objects once.
+size_t countBalls(const GeometryDescription& description) {
+  size_t count = embree::countBalls(description.primitives);
+  for (const auto& object : description.objects) count += embree::countBalls(object.primitives);
+  return count;
 }
 
 class EmbreeGeometry final : public Geometry {
@@ -137,6 +145,7 @@ class EmbreeGeometry final : public Geometry {
   GeometryHandle movingInstance(const ObjectInstance& instance, RTCScene object, unsigned id);
 
   const GeometryDescription description_;
+  Device& device_;
   std::deque<embree::UserShapes> userShapes_;  ///< Embree points to them
   std::deque<embree::MovingInstance> moving_;  ///< and to these
   std::vector<SceneHandle> objects_;
@@ -148,11 +157,12 @@ class EmbreeGeometry final : public Geometry {
 
 EmbreeGeometry::EmbreeGeometry(GeometryDescription description)
     : description_(std::move(description)),
-      scene_(buildScene(description_.primitives,
+      device_(Device::forBalls(countBalls(description_))),
+      scene_(buildScene(device_, description_.primitives,
                         description_.primitives.size() + description_.instances.size(),
                         userShapes_)) {
   attachInstances();
-  commit(scene_.get());
+  commit(device_, scene_.get());
   RTCBounds b;
   rtcGetSceneBounds(scene_.get(), &b);
   if (b.lower_x <= b.upper_x && b.lower_y <= b.upper_y && b.lower_z <= b.upper_z)
@@ -173,19 +183,19 @@ void EmbreeGeometry::attachInstances() {
     if (primitives.empty()) continue;
     SceneHandle& object = objects_[instance.object];
     if (!object) {
-      object = buildScene(primitives, primitives.size(), userShapes_);
-      commit(object.get());
+      object = buildScene(device_, primitives, primitives.size(), userShapes_);
+      commit(device_, object.get());
     }
     const auto id = static_cast<unsigned>(description_.primitives.size() + i);
     const GeometryHandle geometry = instance.motion.empty()
                                         ? stillInstance(instance, object.get())
                                         : movingInstance(instance, object.get(), id);
-    attach(scene_.get(), geometry.get(), id);
+    attach(device_, scene_.get(), geometry.get(), id);
   }
 }
 
 GeometryHandle EmbreeGeometry::stillInstance(const ObjectInstance& instance, RTCScene object) {
-  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_INSTANCE);
+  GeometryHandle geometry = newGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry.get(), object);
   rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
                           &instance.instanceToWorld.matrix()[0][0]);
@@ -194,7 +204,7 @@ GeometryHandle EmbreeGeometry::stillInstance(const ObjectInstance& instance, RTC
 
 GeometryHandle EmbreeGeometry::movingInstance(const ObjectInstance& instance, RTCScene object,
                                               unsigned id) {
-  GeometryHandle geometry = newGeometry(RTC_GEOMETRY_TYPE_USER);
+  GeometryHandle geometry = newGeometry(device_, RTC_GEOMETRY_TYPE_USER);
   embree::setMovingInstance(geometry.get(), moving_.emplace_back(embree::MovingInstance{
                                                 &instance, object, id, kEmbreeLimit}));
   return geometry;

@@ -16,6 +16,15 @@ float boxArea(const Vec3& extent) {
 
 }  // namespace
 
+size_t countBalls(const std::vector<Primitive>& primitives) {
+  size_t count = 0;
+  for (const Primitive& p : primitives)
+    if (p.shape->triangles().triangleCount == 0 && p.shape->elementCount() > 0 &&
+        std::isfinite(p.shape->ball(0).radius))
+      count += p.shape->elementCount();
+  return count;
+}
+
 struct UserShapes::Placed {
   Element element;
   Vec3 centre;

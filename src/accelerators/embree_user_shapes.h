@@ -15,6 +15,9 @@
 
 namespace lampyris::embree {
 
+/// Elements of shapes without triangles that Shape::ball() bounds.
+size_t countBalls(const std::vector<Primitive>& primitives);
+
 /// One of Embree's primitives is an element, or up to eight neighbours that Shape::ball() bounds.
 /// Such a group takes the place of Embree's last node above them: a ray is held against all balls
 /// at once, which are tighter than boxes and lie in two lines of memory.
