@@ -8,14 +8,6 @@
 
 namespace lampyris::embree {
 
-namespace {
-
-float boxArea(const Vec3& extent) {
-  return 2 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
-}
-
-}  // namespace
-
 size_t countBalls(const std::vector<Primitive>& primitives) {
   size_t count = 0;
   for (const Primitive& p : primitives)
@@ -77,10 +69,11 @@ bool UserShapes::areClose(std::span<const Placed> balls) {
   Bounds3 box;
   float area = 0;
   for (const Placed& p : balls) {
-    box.extend({p.ball.center - p.ball.radius, p.ball.center + p.ball.radius});
-    area += boxArea(Vec3(2 * p.ball.radius));
+    const Bounds3 own(p.ball.center - p.ball.radius, p.ball.center + p.ball.radius);
+    box.extend(own);
+    area += own.surfaceArea();
   }
-  return boxArea(box.extent()) <= kMostArea * area;
+  return box.surfaceArea() <= kMostArea * area;
 }
 
 /// Halves space until few balls, close to each other, are in a part.

@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 
 #include <bit>
+#include <span>
 #include <vector>
 
 #include "accelerators/embree_ball_group.h"
