@@ -12,6 +12,8 @@ namespace {
 constexpr double kDivideAt = 150;
 /// Photons that a cell is divided at, and that a part gets at least.
 constexpr size_t kDivideSeedAt = 100, kLeastSeed = 15;
+/// A photon is light that has come, as few of a path's samples find it, and so tells more than one.
+constexpr float kCountOfPhoton = 20;
 /// A surface passes about four of the eight parts.
 constexpr double kPartOfParent = 0.25;
 
@@ -57,10 +59,12 @@ void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota
     const float width = std::ldexp(size, -at.depth);
     const float perArea = static_cast<float>(at.photons.size()) / (width * width);
     RecordCell& cell = nodes_[at.node].cell;
+    cell.forgetNothing();
     const size_t step = 1 + at.photons.size() / kDivideSeedAt;
     for (size_t k = 0; k < at.photons.size(); k += step) {
       GuideSample s = at.photons[k].sample;
       s.radiance *= perArea;
+      s.count = kCountOfPhoton;
       inserted_ += cell.learn(s, inserted_ < quota);
     }
     cell.endPass();

@@ -44,6 +44,7 @@ struct GuideSample {
   Vec3 wi{0};
   float radiance = 0;  ///< luminance; finite, ≥ 0
   float pdf = 0;       ///< by solid angle, with which wi was drawn; > 0
+  float count = 1;     ///< like so many samples it counts
   /// Whether light sampling was tried there, and whether light arrived.
   bool lightTried = false, lightFound = false;
 };

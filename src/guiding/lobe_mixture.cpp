@@ -8,17 +8,19 @@ void LobeMixture::Side::take(const LobeSide& side, const LobeBlock* of) {
   blocks = of;
 }
 
-/// Takes the lobes that count above a plane with normal `n` (zero: everywhere).
+/// Takes the lobes that count at `p` above a plane with normal `n` (zero: everywhere).
 template <class Weight>
-void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& n,
-                             const Weight& weightOf) {
+void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& p,
+                             const Vec3& n, const Weight& weightOf) {
   take({}, own.data());
   for (const SignificanceCache::Lobe& r : cell.lobes) {
-    const float tilt = n == Vec3(0) ? 1.f : dot(r.axis, n);
+    const Vec3 axis = r.axis.at(p);
+    const float tilt = n == Vec3(0) ? 1.f : std::min(dot(axis, n), 1.f);
     if (!(tilt > 0)) continue;
-    const float w = weightOf(r.axis, tilt) * r.flux;
+    const float w = weightOf(axis, tilt) * r.flux;
     if (!(w > 0) || !std::isfinite(w)) continue;
-    add(own.data(), r.axis, r.level, w, samePlane ? r.inverse : inverseClippedLobe(r.level, tilt));
+    const bool isReady = samePlane && r.axis.turn == 0;
+    add(own.data(), axis, r.level, w, isReady ? r.inverse : inverseClippedLobe(r.level, tilt));
   }
 }
 
@@ -31,16 +33,16 @@ bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scatter
   const bool samePlane = lengthSquared(point.n - cell.n) < 1e-13f;
   static_cast<LobeSide&>(back_) = {};
   if (even >= 0) {
-    if (samePlane)
+    if (samePlane && !cell.turn)
       front_.take(cell.even, cell.blocks);
     else
-      front_.fill(cell, false, point.n, [](const Vec3&, float tilt) { return tilt; });
+      front_.fill(cell, samePlane, point.p, point.n, [](const Vec3&, float tilt) { return tilt; });
     scattered_ = even * front_.total;
   } else {
     const auto weight = [&](const Vec3& axis, float) { return scattering.weight(axis); };
-    front_.fill(cell, samePlane, point.n, weight);
+    front_.fill(cell, samePlane, point.p, point.n, weight);
     if (point.onSurface() && point.transmits)
-      back_.fill(cache_.find(point.p, -point.n), false, -point.n, weight);
+      back_.fill(cache_.find(point.p, -point.n), false, point.p, -point.n, weight);
     scattered_ = front_.total + back_.total;
   }
   share_ = 1 / (front_.total + back_.total);

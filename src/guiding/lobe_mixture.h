@@ -29,7 +29,7 @@ class LobeMixture final : public LocalGuide {
     void take(const LobeSide& side, const LobeBlock* of);
     /// `weightOf` an axis and its cosine: what the point scatters of light from there.
     template <class Weight>
-    void fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& n,
+    void fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& p, const Vec3& n,
               const Weight& weightOf);
   };
 

@@ -88,7 +88,9 @@ float PhotonHistogram::pdf(const Vec3& wi) const {
 }  // namespace
 
 void PhotonGuideSettings::declare(Declaration& d) {
-  d.add("photons", photons, "Photon guide: how many are emitted.").range(1, 1e8);
+  d.add("photons", photons,
+        "Photon guide: how many are emitted; as many again are aimed at specular surfaces.")
+      .range(1, 1e8);
   d.add("nearest", nearest, "Photon guide: how many are looked up at a point.")
       .range(1, kMostNearest);
 }

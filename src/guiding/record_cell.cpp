@@ -26,7 +26,7 @@ constexpr size_t kMostRecords = 32;
 
 }  // namespace
 
-RecordCell::RecordCell(int room) : room_(room), nextFit_(kFirstFit) {}
+RecordCell::RecordCell(int room) : room_(room), fading_(kFading), nextFit_(kFirstFit) {}
 
 RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(parent) {
   fade(share);
@@ -41,6 +41,7 @@ void RecordCell::fade(double factor) {
 
 void RecordCell::save(ByteWriter& out) const {
   out.put(room_);
+  out.put(fading_);
   out.put(normal_);
   for (const double sum : {s_, i_, i2_, lightTried_, lightFound_, sinceFit_, nextFit_})
     out.put(sum);
@@ -49,6 +50,7 @@ void RecordCell::save(ByteWriter& out) const {
 
 void RecordCell::restore(ByteReader& in) {
   in.get(room_);
+  in.get(fading_);
   in.get(normal_);
   for (double* sum : {&s_, &i_, &i2_, &lightTried_, &lightFound_, &sinceFit_, &nextFit_})
     in.get(*sum);
@@ -68,9 +70,10 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
       static_cast<double>(sample.radiance) / static_cast<double>(sample.pdf), kLargestWeight);
   normal_ = sample.n;
   const bool significant = weight >= meanFlux();
-  s_ += 1;
-  i_ += weight;
-  i2_ += weight * weight;
+  const double count = static_cast<double>(sample.count), part = weight * count;
+  s_ += count;
+  i_ += part;
+  i2_ += part * part;
   sinceFit_ += 1;
   bool inserted = false;
   if (weight > 0) {
@@ -79,7 +82,7 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
     bool known = false;
     for (size_t i = 0; i < records_.size(); ++i) {
       const SignificanceRecord& r = records_[i];
-      const float power = lobePower(r.level(), r.direction(), sample.wi);
+      const float power = lobePower(r.level(), r.axis().at(sample.p), sample.wi);
       predicted[i] = r.radiance() * power;
       total += predicted[i];
       known = known || power > kKnown;
@@ -89,10 +92,10 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
     const float sum = total + kBackground * mean;
     if (sum > 0)
       for (size_t i = 0; i < records_.size(); ++i)
-        records_[i].add(sample.wi, weight * static_cast<double>(predicted[i] / sum));
+        records_[i].add(sample.p, sample.wi, part * static_cast<double>(predicted[i] / sum));
     if (mayInsert && significant && !known && sample.radiance > total &&
         records_.size() < static_cast<size_t>(room_)) {
-      records_.emplace_back(sample.p, sample.wi, weight).fit(s_);
+      records_.emplace_back(sample.p, sample.wi, part).fit(s_);
       inserted = true;
     }
   }
@@ -102,20 +105,31 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
 
 void RecordCell::fit() {
   for (SignificanceRecord& r : records_) r.fit(s_);
-  fade(kFading);
+  fade(fading_);
   sinceFit_ = 0;
   nextFit_ = std::max(kFirstFit, 2 * s_);
   mergeAlike();
 }
+
+namespace {
+
+/// How far two lobes are one: the least of their heights, with `a` = 1 at its axis, at the other's
+/// axis, where `a` is.
+float likeness(const SignificanceRecord& a, const SignificanceRecord& b) {
+  const Vec3 at = a.axis().place;
+  const Vec3 other = b.axis().at(at);
+  return std::min(lobePower(a.level(), a.axis().direction, other),
+                  lobePower(b.level(), a.axis().direction, other));
+}
+
+}  // namespace
 
 /// Lobes that have come to the same place make room for one that is needed elsewhere.
 void RecordCell::mergeAlike() {
   for (size_t i = 0; i < records_.size(); ++i)
     for (size_t j = records_.size() - 1; j > i; --j) {
       const SignificanceRecord &a = records_[i], &b = records_[j];
-      if (std::min(lobePower(a.level(), a.direction(), b.direction()),
-                   lobePower(b.level(), a.direction(), b.direction())) < kAlike ||
-          std::abs(a.level() - b.level()) > 2)
+      if (std::min(likeness(a, b), likeness(b, a)) < kAlike || std::abs(a.level() - b.level()) > 2)
         continue;
       records_[i].merge(b);
       records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(j));

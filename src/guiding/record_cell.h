@@ -12,7 +12,7 @@ namespace lampyris {
 
 /// A mixture of lobes, fitted by stepwise expectation maximisation: the lobes are fitted anew
 /// whenever the number of samples has doubled, and what was counted before then counts half, so
-/// that early guesses are forgotten.
+/// that early guesses are forgotten; unless they are known to be good.
 class RecordCell {
  public:
   /// `room`: how many records it may hold.
@@ -20,6 +20,8 @@ class RecordCell {
   /// A part of `parent`, from whose records it starts.
   RecordCell(const RecordCell& parent, double share);
 
+  /// From now on counts all samples the same, early ones as well.
+  void forgetNothing() { fading_ = 1; }
   /// Counts a sample. True if it made a record; `mayInsert` false: it must not.
   bool learn(const GuideSample& sample, bool mayInsert);
   /// Fits, and drops what does not help.
@@ -45,6 +47,7 @@ class RecordCell {
   void mergeAlike();
 
   int room_;
+  double fading_;
   std::vector<SignificanceRecord> records_;
   Vec3 normal_{0};
   double s_ = 0, i_ = 0, i2_ = 0;  ///< S, sums of weights and of their squares

@@ -35,7 +35,7 @@ uint64_t facing(const Vec3& n) {
 
 /// 1 / V of a record for surfaces with normal `n`; of the whole lobe where n is zero.
 float inverseAbove(const SignificanceRecord& r, const Vec3& n) {
-  const float tilt = dot(r.direction(), n);
+  const float tilt = dot(r.axis().direction, n);
   return n == Vec3(0) || !(tilt > 0) ? inverseWholeLobe(r.level())
                                      : inverseClippedLobe(r.level(), tilt);
 }
@@ -51,8 +51,8 @@ void SignificanceSettings::declare(Declaration& d) {
       .range(1, SignificanceCache::kMostNearest);
   d.add("maxrecords", maxRecords, "Significance cache: records in all, at most.").range(0, 1e8);
   d.add("seedphotons", photons,
-        "Significance cache: photons emitted before the image to start from, at most; no more than "
-        "one for 16 paths of the camera.")
+        "Significance cache: photons emitted before the image to start from, at most, and no more "
+        "than one for 16 paths of the camera; as many again are aimed at specular surfaces.")
       .range(0, 1e8);
 }
 
@@ -96,7 +96,8 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
           node->n,
           node->even,
           blocks_.data() + node->firstBlock,
-          static_cast<float>(node->lightWorth) * (1 / 255.f)};
+          static_cast<float>(node->lightWorth) * (1 / 255.f),
+          node->turn};
 }
 
 void SignificanceCache::learn(std::span<const GuideSample> samples) {
@@ -171,8 +172,10 @@ void SignificanceCache::freeze() {
                 static_cast<uint32_t>(blocks_.size()), n.cell.normal()};
       for (int32_t& child : flat.children)
         if (child != CellTree::kNoChild) child += first;
-      for (const SignificanceRecord& r : n.cell.records())
-        lobes_.push_back({r.direction(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+      for (const SignificanceRecord& r : n.cell.records()) {
+        lobes_.push_back({r.axis(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+        flat.turn = flat.turn || r.axis().turn != 0;
+      }
       flat.count = static_cast<uint8_t>(lobes_.size() - flat.first);
       freezeEven(flat);
       flat.lightWorth = static_cast<uint8_t>(std::lround(n.cell.lightWorth() * 255));
@@ -185,9 +188,10 @@ void SignificanceCache::freezeEven(Node& node) {
   blocks_.resize(blocks_.size() + LobeSide::blocksOf(node.count));
   for (size_t i = node.first; i < lobes_.size(); ++i) {
     const Lobe& r = lobes_[i];
-    const float w = (node.n == Vec3(0) ? 1.f : dot(r.axis, node.n)) * r.flux;
+    const Vec3& axis = r.axis.direction;
+    const float w = (node.n == Vec3(0) ? 1.f : dot(axis, node.n)) * r.flux;
     if (w > 0 && std::isfinite(w))
-      node.even.add(&blocks_[node.firstBlock], r.axis, r.level, w, r.inverse);
+      node.even.add(&blocks_[node.firstBlock], axis, r.level, w, r.inverse);
   }
 }
 
@@ -220,7 +224,7 @@ std::vector<LearnedDirection> SignificanceCache::directions() const {
     for (const CellTree::Node& n : t.nodes()) {
       if (n.divided) continue;
       for (const SignificanceRecord& r : n.cell.records())
-        found.push_back({r.position(), r.direction(), r.exponent(), r.radiance()});
+        found.push_back({r.axis().place, r.axis().direction, r.exponent(), r.radiance()});
     }
   return found;
 }

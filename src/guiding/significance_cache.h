@@ -19,7 +19,7 @@ struct SignificanceSettings {
   float radius = 0.1f;       ///< width of an undivided cell, in diagonals of the scene
   int nearest = 8;           ///< records used at a point, at most
   int maxRecords = 500'000;  ///< bounds the memory
-  int photons = 100'000;     ///< emitted before the image to start from, at most
+  int photons = 500'000;     ///< emitted before the image to start from, at most
   void declare(Declaration& d);
 };
 
@@ -31,10 +31,10 @@ class SignificanceCache final : public Guide {
 
   /// A record as look-ups see it.
   struct Lobe {
-    Vec3 axis{0};
+    TurningAxis axis;
     float flux = 0;
     int level = 0;
-    float inverse = 0;  ///< 1 / V above the plane of Lobes::n
+    float inverse = 0;  ///< 1 / V above the plane of Lobes::n, if the axis does not turn
   };
   struct Lobes {
     std::span<const Lobe> lobes;
@@ -43,6 +43,7 @@ class SignificanceCache final : public Guide {
     LobeSide even{};
     const LobeBlock* blocks = nullptr;
     float lightWorth = 1;  ///< see LocalGuide
+    bool turn = false;     ///< some of the lobes do: `even` does not hold
   };
 
   SignificanceCache(const SignificanceSettings& settings, const Bounds3& scene);
@@ -75,6 +76,7 @@ class SignificanceCache final : public Guide {
     LobeSide even{};
     uint8_t count = 0;         ///< of lobes_
     uint8_t lightWorth = 255;  ///< in 1/255
+    bool turn = false;         ///< see Lobes
   };
   static_assert(sizeof(Node) == 64);
   struct Slot {

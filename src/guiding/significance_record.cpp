@@ -12,55 +12,56 @@ namespace {
 constexpr float kFirstExponent = 4;
 /// A fit counts the first guess like this many samples of equal weight.
 constexpr double kPrior = 0.2;
+/// An axis turns where more samples than this tell so, and only if Sr falls below this part.
+constexpr double kLeastToTurn = 3, kWorthATurn = 0.9;
 constexpr double kLargestFlux = 1e30;
 
 }  // namespace
 
 SignificanceRecord::SignificanceRecord(const Vec3& position, const Vec3& direction, double w)
-    : position_(position),
-      direction_(direction),
+    : anchor_(position),
+      axis_{direction, position, 0},
       exponent_(kFirstExponent),
       level_(lobeLevel(kFirstExponent)) {
-  add(direction, w);
+  add(position, direction, w);
 }
 
-void SignificanceRecord::add(const Vec3& wi, double part) {
-  sa_ += part;
-  sa2_ += part * part;
-  for (int k = 0; k < 3; ++k) m_[k] += part * static_cast<double>(wi[k]);
+void SignificanceRecord::add(const Vec3& p, const Vec3& wi, double part) {
+  sums_.add(glm::dvec3(p) - anchor_, wi, part);
 }
 
 void SignificanceRecord::fit(double samples) {
-  if (!(sa_ > 0) || !(samples > 0)) {
+  if (!(sums_.weight > 0) || !(samples > 0)) {
     flux_ = 0;
     return;
   }
-  flux_ = static_cast<float>(std::min(sa_ / samples, kLargestFlux));
-  const double moment = std::sqrt(m_[0] * m_[0] + m_[1] * m_[1] + m_[2] * m_[2]);
+  flux_ = static_cast<float>(std::min(sums_.weight / samples, kLargestFlux));
+  const double moment = glm::length(sums_.direction);
   if (!(moment > 0)) return;
-  for (int k = 0; k < 3; ++k) direction_[k] = static_cast<float>(m_[k] / moment);
-  direction_ = normalize(direction_);
-  // Around their own mean n samples spread by n − 1 parts of n only; n counts unequal weights as
-  // one does for variances.
-  const double n = sa_ * sa_ / sa2_;
-  const double sr = std::max(0., sa_ - moment) * n / std::max(n - 1, 0.1);
-  const double guess = kPrior * sa_ / n;
+  const glm::dvec3 mean = sums_.direction / moment;
+  axis_ = {normalize(Vec3(mean)), Vec3(anchor_ + sums_.place / sums_.weight), 0};
+  // Around their own mean n samples spread by n − 1 parts of n only, around a turning one by n − 2.
+  const double n = sums_.count();
+  double sr = sums_.spread() * n / std::max(n - 1, 0.1);
+  if (n > kLeastToTurn) {
+    const LobeSums::Turn t = sums_.fitTurn(mean);
+    const double turned = std::max(0., sums_.spread() - t.gain) * n / (n - 2);
+    if (turned < kWorthATurn * sr) {
+      sr = turned;
+      axis_.turn = static_cast<float>(t.turn);
+    }
+  }
+  const double guess = kPrior * sums_.weight / n;
   const double guessSr = guess / (static_cast<double>(kFirstExponent) + 2);
-  const double e = (sa_ + guess) / (sr + guessSr) - 2;
+  const double e = (sums_.weight + guess) / (sr + guessSr) - 2;
   exponent_ = std::clamp(static_cast<float>(e), 1.f, kMaxLobeExponent);
   level_ = lobeLevel(exponent_);
 }
 
-void SignificanceRecord::fade(double factor) {
-  sa_ *= factor;
-  sa2_ *= factor;
-  for (double& m : m_) m *= factor;
-}
+void SignificanceRecord::fade(double factor) { sums_.scale(factor); }
 
 void SignificanceRecord::merge(const SignificanceRecord& other) {
-  sa_ += other.sa_;
-  sa2_ += other.sa2_;
-  for (int k = 0; k < 3; ++k) m_[k] += other.m_[k];
+  sums_.add(other.sums_, other.anchor_ - anchor_);
   flux_ += other.flux_;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "guiding/clipped_lobe.h"
+#include "guiding/lobe_sums.h"
+#include "guiding/turning_axis.h"
 
 namespace lampyris {
 
@@ -18,9 +20,10 @@ namespace lampyris {
 ///
 ///     e = Sa / Sr − 2,
 ///
-/// the form of eq. 9, right in expectation. A sample belongs to several lobes in the shares in
-/// which they predict it (the E step of expectation maximisation), in place of the thresholds of
-/// eq. 7 and 8.
+/// the form of eq. 9, right in expectation. Where directions turn with the place, as those to an
+/// image in glass nearby, the axis turns likewise, and Sr counts what is left. A sample belongs to
+/// several lobes in the shares in which they predict it (the E step of expectation maximisation),
+/// in place of the thresholds of eq. 7 and 8.
 class SignificanceRecord {
  public:
   SignificanceRecord() = default;
@@ -28,16 +31,15 @@ class SignificanceRecord {
   SignificanceRecord(const Vec3& position, const Vec3& direction, double w);
 
   /// Counts a part of a sample's weight.
-  void add(const Vec3& wi, double part);
+  void add(const Vec3& p, const Vec3& wi, double part);
   /// Fits the lobe to the sums; `samples` is the number of all samples nearby.
   void fit(double samples);
   void fade(double factor);
   /// Takes over what another record knows.
   void merge(const SignificanceRecord& other);
 
-  /// Where the first sample was.
-  const Vec3& position() const { return position_; }
-  const Vec3& direction() const { return direction_; }
+  /// Its place is the mean of the samples'.
+  const TurningAxis& axis() const { return axis_; }
   int level() const { return level_; }
   /// e, in [1, kMaxLobeExponent].
   float exponent() const { return exponent_; }
@@ -47,11 +49,11 @@ class SignificanceRecord {
   float radiance() const { return flux_ * inverseWholeLobe(level_); }
 
  private:
-  Vec3 position_{0}, direction_{0, 0, 1};
+  glm::dvec3 anchor_{0};  ///< of the sums: where the first sample was
+  TurningAxis axis_;
   float exponent_ = 1, flux_ = 0;
   int level_ = 0;
-  double sa_ = 0, sa2_ = 0;  ///< Sa; the sum of its terms' squares
-  double m_[3] = {};         ///< sum of parts × directions; Sr = Sa − its length
+  LobeSums sums_;
 };
 
 }  // namespace lampyris

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that specular surfaces focus comes from a small part of all emission. A first quarter of
-// the photons finds out which: the place and the direction of emission are four numbers in [0, 1),
-// whose cube is cut into cells, and cells from which a photon came by way of a specular surface are
-// aimed at by half of the photons that count. (The other half, emitted evenly, keeps every photon
-// possible.)
+// Light that specular surfaces focus comes from a small part of all emission. Photons emitted
+// evenly find out which: the place and the direction of emission are four numbers in [0, 1), whose
+// cube is cut into cells, and at the cells from which a photon came to a specular surface first, as
+// many photons are aimed. These alone tell of all light that meets such a surface first, the even
+// ones of all other light. (Cells that no even photon has found are missed: a guide may be wrong.)
 #include "integrators/guide_photons.h"
 
 #include <array>
@@ -20,8 +20,6 @@ namespace {
 constexpr size_t kChunk = 4096;
 /// Bounces of a photon, at most: what is to be known first is where light gets to by few.
 constexpr int kMostBounces = 6;
-/// Share of the photons that only look where to aim.
-constexpr int kPilots = 4;
 
 /// Parts of the numbers that choose place and direction of emission.
 class Aim {
@@ -41,13 +39,8 @@ class Aim {
     const uint32_t digit = cells_[std::min(i, cells_.size() - 1)] >> (kBits * dimension);
     return std::min((static_cast<float>(digit % kBins) + u) / kBins, kOneMinusEpsilon);
   }
-  /// Density of an even mixture of all numbers and those aimed at; 1 if there are none.
-  float density(const Numbers& u) const {
-    if (empty()) return 1;
-    const float aimed =
-        isIn_[cellOf(u)] ? static_cast<float>(kCells) / static_cast<float>(cells_.size()) : 0.f;
-    return 0.5f * (1 + aimed);
-  }
+  /// Of all numbers.
+  float share() const { return static_cast<float>(cells_.size()) / kCells; }
 
  private:
   static constexpr uint32_t kBits = 3, kBins = 1 << kBits;
@@ -69,10 +62,8 @@ class PhotonNumbers final : public Sampler {
   float get1D(const SampleAddress& a, uint32_t d) const override {
     const uint32_t k = d - kFirstAimed;
     const float u = toUnitFloat(hashCombine(hashCombine(kSeed, a.index), d));
-    // Even indices are aimed. Dimension 0 is the camera's.
-    return k < Aim::kDimensions && !aim_.empty() && a.index % 2 == 0
-               ? aim_.number(get1D(a, 0), k, u)
-               : u;
+    // Dimension 0, otherwise the camera's, chooses the cell.
+    return k < Aim::kDimensions && !aim_.empty() ? aim_.number(get1D(a, 0), k, u) : u;
   }
   Vec2 get2D(const SampleAddress& a, uint32_t d) const override {
     return {get1D(a, d), get1D(a, d + 1)};
@@ -90,60 +81,81 @@ class PhotonNumbers final : public Sampler {
   const Aim& aim_;
 };
 
-/// Calls take(chunk, index, path) for `count` photons' paths, from index `first` on; chunks run at
-/// the same time.
-template <class Take>
-void trace(const Scene& scene, size_t first, size_t count, int maxDepth,
-           const PhotonNumbers& numbers, const Take& take) {
-  const EmitterTable emitters(scene.lightTable);
-  if (emitters.empty()) return;
-  const SubpathTracer tracer(scene, emitters);
-  parallelFor((count + kChunk - 1) / kChunk, 1, [&](size_t begin, size_t end) {
-    Subpath path;
-    RayCounts rays;
-    for (size_t c = begin; c < end; ++c)
-      for (size_t i = first + c * kChunk; i < first + std::min((c + 1) * kChunk, count); ++i) {
-        tracer.fromLight(Ray(), static_cast<size_t>(maxDepth), SampleStream(numbers, {Int2(0), i}),
-                         nullptr, path, rays);
-        take(c, i, path);
-      }
-  });
-}
+bool startsSpecular(const Subpath& path) { return path.size() > 1 && path[1].bsdf.isSpecular(); }
 
-Aim aimAtSpecular(const Scene& scene, size_t first, size_t count, int maxDepth) {
-  const Aim nowhere;
-  const PhotonNumbers numbers(nowhere);
-  std::vector<std::vector<Aim::Numbers>> found((count + kChunk - 1) / kChunk);
-  trace(scene, first, count, maxDepth, numbers, [&](size_t chunk, size_t i, const Subpath& path) {
-    if (path.size() > 2 && path[1].bsdf.isSpecular()) found[chunk].push_back(numbers.emission(i));
-  });
-  Aim aim;
-  for (const auto& part : found)
-    for (const Aim::Numbers& u : part) aim.add(u);
-  return aim;
+/// What photons have left, by chunks, which are traced at the same time.
+class PhotonPaths {
+ public:
+  PhotonPaths(const Scene& scene, size_t count, size_t maxDepth)
+      : scene_(scene), count_(count), maxDepth_(maxDepth) {}
+
+  /// Calls take(chunk, index, path) for the photons from index `first` on.
+  template <class Take>
+  void trace(size_t first, const PhotonNumbers& numbers, const Take& take) const {
+    const EmitterTable emitters(scene_.lightTable);
+    if (emitters.empty()) return;
+    const SubpathTracer tracer(scene_, emitters);
+    parallelFor(chunks(), 1, [&](size_t begin, size_t end) {
+      Subpath path;
+      RayCounts rays;
+      for (size_t c = begin; c < end; ++c)
+        for (size_t i = c * kChunk; i < std::min((c + 1) * kChunk, count_); ++i) {
+          tracer.fromLight(Ray(), maxDepth_, SampleStream(numbers, {Int2(0), first + i}), nullptr,
+                           path, rays);
+          take(c, first + i, path);
+        }
+    });
+  }
+  size_t chunks() const { return (count_ + kChunk - 1) / kChunk; }
+
+ private:
+  const Scene& scene_;
+  size_t count_, maxDepth_;
+};
+
+/// Appends the photons of a path where they reach what scatters them diffusely; `share`: of the
+/// light's power, in the path's terms.
+void keep(const Subpath& path, float share, std::vector<GuidePhoton>& found) {
+  for (size_t v = 2; v < path.size(); ++v) {
+    const SurfaceInteraction& at = path[v].at;
+    const float power = path[v].throughput.luminance() * share;
+    if (!path[v].bsdf.isSpecular() && power > 0 && std::isfinite(power))
+      found.push_back({at.p, at.wo, power, faceForward(at.n, at.wo)});
+  }
 }
 
 }  // namespace
 
 std::vector<GuidePhoton> traceGuidePhotons(const Scene& scene, int count, int maxDepth) {
-  const auto photons = static_cast<size_t>(count), pilots = photons / kPilots;
-  const size_t rest = photons - pilots;
-  maxDepth = std::min(maxDepth, kMostBounces);
-  // With numbers of their own: cells chosen by the photons that count would dim these.
-  const Aim aim = aimAtSpecular(scene, rest, pilots, maxDepth);
-  const PhotonNumbers numbers(aim);
-  std::vector<std::vector<GuidePhoton>> found((rest + kChunk - 1) / kChunk);
-  trace(scene, 0, rest, maxDepth, numbers, [&](size_t chunk, size_t i, const Subpath& path) {
-    const float share = 1 / (static_cast<float>(rest) * aim.density(numbers.emission(i)));
-    for (size_t v = 2; v < path.size(); ++v) {
-      const SurfaceInteraction& at = path[v].at;
-      const float power = path[v].throughput.luminance() * share;
-      if (!path[v].bsdf.isSpecular() && power > 0 && std::isfinite(power))
-        found[chunk].push_back({at.p, at.wo, power, faceForward(at.n, at.wo)});
-    }
+  const auto photons = static_cast<size_t>(count);
+  const PhotonPaths paths(scene, photons, static_cast<size_t>(std::min(maxDepth, kMostBounces)));
+  struct Found {
+    std::vector<GuidePhoton> photons;
+    std::vector<Aim::Numbers> specular;
+  };
+  std::vector<Found> even(paths.chunks()), aimed(paths.chunks());
+  const float share = 1 / static_cast<float>(photons);
+
+  const Aim nowhere;
+  const PhotonNumbers evenNumbers(nowhere);
+  paths.trace(0, evenNumbers, [&](size_t chunk, size_t i, const Subpath& path) {
+    if (!startsSpecular(path))
+      keep(path, share, even[chunk].photons);
+    else if (path.size() > 2)
+      even[chunk].specular.push_back(evenNumbers.emission(i));
   });
+  Aim aim;
+  for (const Found& part : even)
+    for (const Aim::Numbers& u : part.specular) aim.add(u);
+  if (!aim.empty())
+    paths.trace(photons, PhotonNumbers(aim), [&](size_t chunk, size_t, const Subpath& path) {
+      if (startsSpecular(path)) keep(path, share * aim.share(), aimed[chunk].photons);
+    });
+
   std::vector<GuidePhoton> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  for (const auto* stream : {&even, &aimed})
+    for (const Found& part : *stream)
+      all.insert(all.end(), part.photons.begin(), part.photons.end());
   return all;
 }
 

@@ -28,6 +28,20 @@ class Even final : public DirectionWeight {
   bool says_;
 };
 
+/// A sample at a point of a plane with normal `n` (0: of a box), by a direction that is uniform
+/// over the sphere above; without radiance.
+GuideSample darkSample(const Vec3& n, uint64_t a, uint64_t b) {
+  const auto u = [&](uint32_t d) { return uniform(a, b, d); };
+  GuideSample s;
+  s.p = Vec3(u(0), u(1), n == Vec3(0) ? u(2) : 0.5f);
+  s.n = n;
+  s.wi = sampleUniformSphere({u(3), u(4)});
+  s.pdf = 1 / (4 * kPi);
+  if (n != Vec3(0) && dot(s.wi, n) < 0) s.wi = -s.wi;
+  if (n != Vec3(0)) s.pdf *= 2;
+  return s;
+}
+
 /// Teaches a cache the radiance `light(w)` at random points of a plane with normal `n` (0: of a
 /// box), by directions that are uniform over the sphere above.
 void teach(SignificanceCache& cache, const Vec3& n, float (*light)(const Vec3&), uint64_t passes,
@@ -35,16 +49,8 @@ void teach(SignificanceCache& cache, const Vec3& n, float (*light)(const Vec3&),
   for (uint64_t pass = 0; pass < passes; ++pass) {
     std::vector<GuideSample> samples;
     for (int i = 0; i < count; ++i) {
-      const auto u = [&](uint32_t d) { return uniform(pass + 1, static_cast<uint64_t>(i), d); };
-      GuideSample s;
-      s.p = Vec3(u(0), u(1), n == Vec3(0) ? u(2) : 0.5f);
-      s.n = n;
-      s.wi = sampleUniformSphere({u(3), u(4)});
-      s.pdf = 1 / (4 * kPi);
-      if (n != Vec3(0) && dot(s.wi, n) < 0) s.wi = -s.wi;
-      if (n != Vec3(0)) s.pdf *= 2;
+      GuideSample& s = samples.emplace_back(darkSample(n, pass + 1, static_cast<uint64_t>(i)));
       s.radiance = light(s.wi);
-      samples.push_back(s);
     }
     cache.learn(samples);
     cache.endPass();
@@ -84,10 +90,86 @@ TEST(SignificanceCache, StartsFromPhotons) {
   cache.seed(photons);
   float flux = 0;
   for (const auto& lobe : cache.find(Vec3(0.4f, 0.6f, 0.5f), kUp).lobes) {
-    EXPECT_GT(dot(lobe.axis, kHigh), 0.99f);
+    EXPECT_GT(dot(lobe.axis.direction, kHigh), 0.99f);
     flux += lobe.flux;
   }
   EXPECT_NEAR(flux, 1, 0.4f);
+}
+
+/// Photons that all come from (or, without the sign, have all met in) one point.
+void seedFromPoint(SignificanceCache& cache, const Vec3& point, float sign, int count) {
+  std::vector<GuidePhoton> photons;
+  for (int i = 0; i < count; ++i) {
+    const auto u = [i](uint32_t d) { return uniform(5, static_cast<uint64_t>(i), d); };
+    const Vec3 p(u(0), u(1), 0.5f);
+    photons.push_back({p, sign * normalize(point - p), 1.f / static_cast<float>(count), kUp});
+  }
+  cache.seed(photons);
+}
+
+TEST(SignificanceCache, LobesTurnTowardsWhatIsNear) {
+  const Vec3 lamp(0.4f, 0.6f, 1.2f), image(0.4f, 0.6f, 0.f);
+  for (const float sign : {1.f, -1.f}) {
+    const Vec3& point = sign > 0 ? lamp : image;
+    SignificanceCache cache({0.6f, 8, 100'000}, kUnitBox);
+    seedFromPoint(cache, point, sign, 400);  // few: cells are wide
+    float worst = 1;
+    for (uint64_t i = 0; i < 200; ++i) {
+      const Vec3 p(uniform(1, i, 0), uniform(1, i, 1), 0.5f);
+      const SignificanceCache::Lobe* best = nullptr;
+      const SignificanceCache::Lobes found = cache.find(p, kUp);
+      for (const auto& lobe : found.lobes)
+        if (!best || lobe.flux > best->flux) best = &lobe;
+      ASSERT_TRUE(best);
+      worst = std::min(worst, dot(best->axis.at(p), sign * normalize(point - p)));
+    }
+    EXPECT_GT(worst, 0.98f) << sign;
+  }
+}
+
+TEST(SignificanceCache, TurnedLobesAreSampledByTheirPdf) {
+  SignificanceCache cache({0.6f, 8, 100'000}, kUnitBox);
+  seedFromPoint(cache, Vec3(0.4f, 0.6f, 0.8f), 1, 400);
+  const auto local = cache.makeLocal();
+  for (const bool says : {false, true}) {
+    ASSERT_TRUE(local->moveTo({Vec3(0.9f, 0.3f, 0.5f), kUp, false}, Even(kUp, says)));
+    uint64_t draws = 0;
+    DirectionTest test;
+    test.samples = 100'000;
+    test.subdivisions = 24;
+    test.sample = [&](const Vec2& u, float uc, Vec3& w) {
+      NumberSequence more(++draws);
+      w = local->sample(uc, u, more);
+      return true;
+    };
+    test.pdf = [&](const Vec3& w) { return static_cast<double>(local->pdf(w)); };
+    EXPECT_EQ(directionChiSquareTest(test), "") << says;
+  }
+}
+
+TEST(SignificanceCache, RemembersPhotonsWherePathsFindNothing) {
+  SignificanceCache cache({0.6f, 8, 100'000}, kUnitBox);
+  seedFromPoint(cache, Vec3(0.4f, 0.6f, 1000), 1, 2000);
+  const Vec3 p(0.5f);
+  const auto flux = [&] {
+    float sum = 0;
+    for (const auto& lobe : cache.find(p, kUp).lobes) {
+      EXPECT_GT(lobeExponent(lobe.level), 1000u);
+      sum += lobe.flux;
+    }
+    return sum;
+  };
+  const float before = flux();
+  for (uint64_t pass = 0; pass < 8; ++pass) {
+    std::vector<GuideSample> dark;
+    for (uint64_t i = 0; i < 5000; ++i) dark.push_back(darkSample(kUp, pass, i));
+    cache.learn(dark);
+    cache.endPass();
+  }
+  // 40,000 dark samples beside 2,000 photons that count like twenty each, and a part of which each
+  // cell looks at.
+  EXPECT_GT(flux() / before, 0.4f);
+  EXPECT_LT(flux() / before, 0.8f);
 }
 
 TEST(SignificanceCache, ExponentsFitTheLight) {
@@ -104,7 +186,7 @@ TEST(SignificanceCache, ExponentsFitTheLight) {
     for (const auto& l : lobes) {
       const auto n = static_cast<float>(lobeExponent(l.level));
       flux += l.flux;
-      cosines += l.flux * l.axis.z * (n + 1) / (n + 2);
+      cosines += l.flux * l.axis.direction.z * (n + 1) / (n + 2);
     }
     EXPECT_NEAR(flux, 2 * kPi * (1 - c), 0.15f * flux) << c;
     // Levels round the exponent up by half at most.
@@ -184,7 +266,7 @@ TEST(SignificanceCache, IsTheSameForAnyNumberOfThreads) {
       const float x = 0.01f + 0.03f * static_cast<float>(i);
       for (const auto& l : cache.find(Vec3(x, 1 - x, 0.5f), kUp).lobes) {
         all.push_back(l.flux);
-        all.push_back(l.axis.x);
+        all.push_back(l.axis.direction.x);
       }
     }
     EXPECT_GT(all.size(), 20u);
