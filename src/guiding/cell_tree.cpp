@@ -10,12 +10,15 @@ namespace {
 /// A cell that has seen this many samples, in terms of samples of equal weight, is divided: its
 /// parts still see enough to fit lobes to.
 constexpr double kDivideAt = 150;
-/// Photons that a cell is divided at, and that a part gets at least.
-constexpr size_t kDivideSeedAt = 100, kLeastSeed = 15;
+/// Photons that a cell is divided at, that a part gets at least, and how many it is fitted to at
+/// most.
+constexpr size_t kDivideSeedAt = 100, kLeastSeed = 15, kFittedSeed = 300;
 /// A photon is light that has come, as few of a path's samples find it, and so tells more than one.
 constexpr float kCountOfPhoton = 20;
 /// A surface passes about four of the eight parts.
-constexpr double kPartOfParent = 0.25;
+constexpr double kPartsOnSurface = 4, kPartOfParent = 1 / kPartsOnSurface;
+/// Parts with photons of their own need less.
+constexpr double kPartOfSeededParent = 0.1;
 
 }  // namespace
 
@@ -45,22 +48,23 @@ void CellTree::learn(const PlacedSample& sample, size_t quota) {
 }
 
 struct CellTree::SeededCell {
-  size_t node;
-  int depth;
+  size_t node = 0;
+  int depth = 0;
   std::vector<PlacedSample> photons;
+  double power = 0;  ///< of the photons, per cosine
 };
 
 /// Level by level, so that parts start from what the whole has learned.
 void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota) {
   std::vector<SeededCell> cells;
-  cells.push_back({0, 0, std::move(photons)});
+  cells.emplace_back().photons = std::move(photons);
   for (size_t i = 0; i < cells.size(); ++i) {
     const SeededCell at = std::move(cells[i]);
     const float width = std::ldexp(size, -at.depth);
     const float perArea = static_cast<float>(at.photons.size()) / (width * width);
     RecordCell& cell = nodes_[at.node].cell;
     cell.forgetNothing();
-    const size_t step = 1 + at.photons.size() / kDivideSeedAt;
+    const size_t step = 1 + at.photons.size() / kFittedSeed;
     for (size_t k = 0; k < at.photons.size(); k += step) {
       GuideSample s = at.photons[k].sample;
       s.radiance *= perArea;
@@ -70,17 +74,21 @@ void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota
     cell.endPass();
     if (at.photons.size() < kDivideSeedAt || at.depth >= CellPlace::kDeepest) continue;
     std::array<SeededCell, 8> parts;
+    double power = 0;
     for (const PlacedSample& s : at.photons) {
       SeededCell& part = parts[s.place.child(at.depth)];
       part.depth = at.depth + 1;
       part.photons.push_back(s);
+      part.power += static_cast<double>(s.sample.radiance);
+      power += static_cast<double>(s.sample.radiance);
     }
     for (size_t child = 0; child < 8; ++child) {
       const size_t copied = nodes_[at.node].cell.records().size();
       if (parts[child].photons.size() < kLeastSeed || inserted_ + copied > quota) continue;
       inserted_ += copied;
       nodes_[at.node].divided = true;
-      parts[child].node = addNode(RecordCell(nodes_[at.node].cell, kPartOfParent));
+      parts[child].node = addNode(RecordCell(nodes_[at.node].cell, kPartOfSeededParent,
+                                             kPartsOnSurface * parts[child].power / power));
       nodes_[at.node].children[child] = static_cast<int32_t>(parts[child].node);
       cells.push_back(std::move(parts[child]));
     }

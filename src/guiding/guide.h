@@ -27,10 +27,11 @@ struct GuidePoint {
 /// What a point does with light from a direction.
 class DirectionWeight {
  public:
-  /// Luminance of BSDF × |cos|, or of the phase function; ≥ 0.
-  virtual float weight(const Vec3& wi) const = 0;
-  /// weight() where it is the same for all directions; at a surface: over the cosine, and 0 below.
-  /// < 0 where it varies.
+  /// For each of `wi` about the luminance of BSDF × |cos|, or of the phase function; ≥ 0. It may be
+  /// rough: what guides know is weighed by it. `weights` are as many.
+  virtual void weigh(std::span<const Vec3> wi, std::span<float> weights) const = 0;
+  /// What weigh() tells where it is the same for all directions; at a surface: over the cosine, and
+  /// 0 below. < 0 where it varies.
   virtual float even() const { return -1; }
 
  protected:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guiding/lobe_mixture.h"
 
+#include <algorithm>
+
 namespace lampyris {
 
 void LobeMixture::Side::take(const LobeSide& side, const LobeBlock* of) {
@@ -8,19 +10,33 @@ void LobeMixture::Side::take(const LobeSide& side, const LobeBlock* of) {
   blocks = of;
 }
 
-/// Takes the lobes that count at `p` above a plane with normal `n` (zero: everywhere).
-template <class Weight>
 void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& p,
-                             const Vec3& n, const Weight& weightOf) {
+                             const Vec3& n, const DirectionWeight* scattering) {
   take({}, own.data());
+  constexpr size_t kMost = SignificanceCache::kMostNearest;
+  std::array<const SignificanceCache::Lobe*, kMost> above;
+  std::array<Vec3, kMost> axes;
+  std::array<float, kMost> tilts, scattered;
+  size_t found = 0;
   for (const SignificanceCache::Lobe& r : cell.lobes) {
     const Vec3 axis = r.axis.at(p);
     const float tilt = n == Vec3(0) ? 1.f : std::min(dot(axis, n), 1.f);
-    if (!(tilt > 0)) continue;
-    const float w = weightOf(axis, tilt) * r.flux;
+    axes[found] = axis;
+    tilts[found] = tilt;
+    above[found] = &r;
+    found += tilt > 0;
+  }
+  if (scattering)
+    scattering->weigh({axes.data(), found}, {scattered.data(), found});
+  else
+    std::copy_n(tilts.begin(), found, scattered.begin());
+  for (size_t i = 0; i < found; ++i) {
+    const SignificanceCache::Lobe& r = *above[i];
+    const float w = scattered[i] * r.flux;
     if (!(w > 0) || !std::isfinite(w)) continue;
     const bool isReady = samePlane && r.axis.turn == 0;
-    add(own.data(), axis, r.level, w, isReady ? r.inverse : inverseClippedLobe(r.level, tilt));
+    add(own.data(), axes[i], r.level, w,
+        isReady ? r.inverse : inverseClippedLobe(r.level, tilts[i]));
   }
 }
 
@@ -36,13 +52,12 @@ bool LobeMixture::moveTo(const GuidePoint& point, const DirectionWeight& scatter
     if (samePlane && !cell.turn)
       front_.take(cell.even, cell.blocks);
     else
-      front_.fill(cell, samePlane, point.p, point.n, [](const Vec3&, float tilt) { return tilt; });
+      front_.fill(cell, samePlane, point.p, point.n, nullptr);
     scattered_ = even * front_.total;
   } else {
-    const auto weight = [&](const Vec3& axis, float) { return scattering.weight(axis); };
-    front_.fill(cell, samePlane, point.p, point.n, weight);
+    front_.fill(cell, samePlane, point.p, point.n, &scattering);
     if (point.onSurface() && point.transmits)
-      back_.fill(cache_.find(point.p, -point.n), false, point.p, -point.n, weight);
+      back_.fill(cache_.find(point.p, -point.n), false, point.p, -point.n, &scattering);
     scattered_ = front_.total + back_.total;
   }
   share_ = 1 / (front_.total + back_.total);

@@ -27,10 +27,10 @@ class LobeMixture final : public LocalGuide {
 
     /// Of those that the cell holds ready.
     void take(const LobeSide& side, const LobeBlock* of);
-    /// `weightOf` an axis and its cosine: what the point scatters of light from there.
-    template <class Weight>
+    /// Those that count at `p` above a plane with normal `n` (zero: everywhere). `scattering` null:
+    /// that of a diffuse surface.
     void fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& p, const Vec3& n,
-              const Weight& weightOf);
+              const DirectionWeight* scattering);
   };
 
   const SignificanceCache& cache_;

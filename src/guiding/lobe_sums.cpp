@@ -35,6 +35,11 @@ void LobeSums::scale(double factor) {
   both *= factor;
 }
 
+void LobeSums::brighten(double factor) {
+  scale(factor);
+  weight2 *= factor;
+}
+
 double LobeSums::spread() const { return std::max(0., weight - glm::length(direction)); }
 
 LobeSums::Turn LobeSums::fitTurn(const glm::dvec3& axis) const {

@@ -18,6 +18,8 @@ struct LobeSums {
   /// Of an anchor that lies `shift` beyond this one's.
   void add(const LobeSums& other, const glm::dvec3& shift);
   void scale(double factor);
+  /// As if all weights had been so many times as large.
+  void brighten(double factor);
 
   /// How many directions of equal weight would tell as much; needs weight > 0.
   double count() const { return weight * weight / weight2; }

@@ -54,12 +54,16 @@ bool PhotonHistogram::moveTo(const GuidePoint& point, const DirectionWeight& sca
   share_.fill(0);
   std::array<PhotonTree::Near, PhotonGuideSettings::kMostNearest> found;
   const size_t count = tree_.nearest(point.p, {found.data(), nearest_});
+  std::array<Vec3, PhotonGuideSettings::kMostNearest> from;
+  std::array<float, PhotonGuideSettings::kMostNearest> scattered;
+  for (size_t i = 0; i < count; ++i) from[i] = tree_[found[i].photon].wi;
+  scattering.weigh({from.data(), count}, {scattered.data(), count});
   float total = 0;
   for (size_t i = 0; i < count; ++i) {
     const GuidePhoton& photon = tree_[found[i].photon];
     const Vec3 local = frame_.toLocal(photon.wi);
     if (!(local.z > 1e-3f)) continue;
-    const float weight = photon.power * scattering.weight(photon.wi) / local.z;
+    const float weight = photon.power * scattered[i] / local.z;
     if (!(weight > 0) || !std::isfinite(weight)) continue;
     share_[cellOf(local)] += weight;
     total += weight;

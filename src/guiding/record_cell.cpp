@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/math.h"
+
 namespace lampyris {
 
 namespace {
@@ -23,13 +25,21 @@ constexpr float kAlike = 0.8f;
 constexpr double kLargestWeight = 1e60;
 
 constexpr size_t kMostRecords = 32;
+/// Lobes are narrow if all together cover less than this part of the hemisphere.
+constexpr float kNarrow = 0.3f;
+/// A lobe of fewer samples may look narrow by chance.
+constexpr double kKnownSamples = 8;
 
 }  // namespace
 
 RecordCell::RecordCell(int room) : room_(room), fading_(kFading), nextFit_(kFirstFit) {}
 
-RecordCell::RecordCell(const RecordCell& parent, double share) : RecordCell(parent) {
+RecordCell::RecordCell(const RecordCell& parent, double share, double brightness)
+    : RecordCell(parent) {
   fade(share);
+  i_ *= brightness;
+  i2_ *= sqr(brightness);
+  for (SignificanceRecord& r : records_) r.brighten(brightness);
   sinceFit_ = 0;
   nextFit_ = kFirstFit;
 }
@@ -93,14 +103,23 @@ bool RecordCell::learn(const GuideSample& sample, bool mayInsert) {
     if (sum > 0)
       for (size_t i = 0; i < records_.size(); ++i)
         records_[i].add(sample.p, sample.wi, part * static_cast<double>(predicted[i] / sum));
-    if (mayInsert && significant && !known && sample.radiance > total &&
-        records_.size() < static_cast<size_t>(room_)) {
+    if (mayInsert && significant && !known && sample.radiance > total && hasRoom()) {
       records_.emplace_back(sample.p, sample.wi, part).fit(s_);
       inserted = true;
     }
   }
   if (sinceFit_ >= nextFit_) fit();
   return inserted;
+}
+
+bool RecordCell::hasRoom() const {
+  const auto room = static_cast<size_t>(room_);
+  if (records_.size() < room) return true;
+  if (records_.size() >= std::min(2 * room, kMostRecords)) return false;
+  float covered = 0;
+  for (const SignificanceRecord& r : records_)
+    covered += r.effectiveSamples() > kKnownSamples ? 1 / (r.exponent() + 1) : kNarrow;
+  return covered < kNarrow;
 }
 
 void RecordCell::fit() {

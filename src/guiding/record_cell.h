@@ -15,10 +15,11 @@ namespace lampyris {
 /// that early guesses are forgotten; unless they are known to be good.
 class RecordCell {
  public:
-  /// `room`: how many records it may hold.
+  /// `room`: how many records it may hold; twice as many where they are narrow.
   explicit RecordCell(int room);
-  /// A part of `parent`, from whose records it starts.
-  RecordCell(const RecordCell& parent, double share);
+  /// A part of `parent`, from whose records it starts as if it had counted `share` of the samples.
+  /// `brightness`: of what is to come there, in relation to the parent's.
+  RecordCell(const RecordCell& parent, double share, double brightness = 1);
 
   /// From now on counts all samples the same, early ones as well.
   void forgetNothing() { fading_ = 1; }
@@ -44,6 +45,7 @@ class RecordCell {
   /// What was counted counts so much less.
   void fade(double factor);
   void fit();
+  bool hasRoom() const;
   void mergeAlike();
 
   int room_;

@@ -60,6 +60,11 @@ void SignificanceRecord::fit(double samples) {
 
 void SignificanceRecord::fade(double factor) { sums_.scale(factor); }
 
+void SignificanceRecord::brighten(double factor) {
+  sums_.brighten(factor);
+  flux_ = static_cast<float>(static_cast<double>(flux_) * factor);
+}
+
 void SignificanceRecord::merge(const SignificanceRecord& other) {
   sums_.add(other.sums_, other.anchor_ - anchor_);
   flux_ += other.flux_;

@@ -35,6 +35,8 @@ class SignificanceRecord {
   /// Fits the lobe to the sums; `samples` is the number of all samples nearby.
   void fit(double samples);
   void fade(double factor);
+  /// As if there were so many times as much light.
+  void brighten(double factor);
   /// Takes over what another record knows.
   void merge(const SignificanceRecord& other);
 
@@ -43,6 +45,8 @@ class SignificanceRecord {
   int level() const { return level_; }
   /// e, in [1, kMaxLobeExponent].
   float exponent() const { return exponent_; }
+  /// As many samples of equal weight would tell as much of the lobe.
+  double effectiveSamples() const { return sums_.count(); }
   /// Integral of the lobe's radiance over directions.
   float flux() const { return flux_; }
   /// L̃: the lobe's peak.

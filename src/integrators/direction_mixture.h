@@ -7,25 +7,6 @@
 
 namespace lampyris {
 
-/// What a vertex of a path scatters, as guides ask for it.
-class ScatteringPoint final : public DirectionWeight {
- public:
-  /// at.scattered() must be known; `at` must live as long.
-  explicit ScatteringPoint(const LightSampleContext& at) : at_(at) {}
-
-  float weight(const Vec3& wi) const override { return at_.scattered(wi).luminance(); }
-  /// Of rough matte surfaces, which vary a little, what they scatter straight up.
-  float even() const override {
-    const Bsdf* const bsdf = at_.bsdf;
-    if (!bsdf) return at_.phase->isIsotropic() ? at_.phase->p(at_.wo, at_.wo) : -1;
-    if (!bsdf->isDiffuse() || bsdf->transmits()) return -1;
-    return bsdf->f(at_.wo, faceForward(bsdf->frame().z, at_.wo)).luminance();
-  }
-
- private:
-  const LightSampleContext& at_;
-};
-
 /// A direction drawn from a DirectionMixture.
 struct DrawnDirection {
   Vec3 wi{0};

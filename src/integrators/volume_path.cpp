@@ -12,6 +12,7 @@
 #include "integrators/light_connection.h"
 #include "integrators/ray_surface.h"
 #include "integrators/sample_numbers.h"
+#include "integrators/scattering_point.h"
 #include "integrators/subsurface.h"
 #include "integrators/transmittance.h"
 

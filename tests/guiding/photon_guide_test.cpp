@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sampling.h"
+#include "function_weight.h"
 #include "support/statistics.h"
 
 namespace lampyris::test {
@@ -12,12 +13,9 @@ namespace {
 
 const Vec3 kUp = normalize(Vec3(0.3f, -0.5f, 1));
 
-class Tilted final : public DirectionWeight {
- public:
-  float weight(const Vec3& wi) const override {
-    return std::max(0.f, dot(wi, kUp)) * (1.5f + wi.x);
-  }
-};
+FunctionWeight Tilted() {
+  return FunctionWeight([](const Vec3& wi) { return std::max(0.f, dot(wi, kUp)) * (1.5f + wi.x); });
+}
 
 std::vector<GuidePhoton> photonsFrom(bool (*lit)(const Vec3&), size_t count) {
   std::vector<GuidePhoton> photons;

@@ -6,6 +6,7 @@
 #include "core/frame.h"
 #include "core/parallel.h"
 #include "core/sampling.h"
+#include "function_weight.h"
 #include "support/statistics.h"
 
 namespace lampyris::test {
@@ -14,19 +15,12 @@ namespace {
 
 const Bounds3 kUnitBox(Vec3(0), Vec3(1));
 
-class Even final : public DirectionWeight {
- public:
-  /// `says`: whether it tells that it is even.
-  explicit Even(const Vec3& n, bool says = false) : n_(n), says_(says) {}
-  float weight(const Vec3& wi) const override {
-    return 0.3f * (n_ == Vec3(0) ? 1 : std::max(0.f, dot(wi, n_)));
-  }
-  float even() const override { return says_ ? 0.3f : -1.f; }
-
- private:
-  Vec3 n_;
-  bool says_;
-};
+/// `says`: whether it tells that it is even.
+FunctionWeight Even(const Vec3& n, bool says = false) {
+  return FunctionWeight(
+      [n](const Vec3& wi) { return 0.3f * (n == Vec3(0) ? 1 : std::max(0.f, dot(wi, n))); },
+      says ? 0.3f : -1.f);
+}
 
 /// A sample at a point of a plane with normal `n` (0: of a box), by a direction that is uniform
 /// over the sphere above; without radiance.
@@ -105,6 +99,47 @@ void seedFromPoint(SignificanceCache& cache, const Vec3& point, float sign, int 
     photons.push_back({p, sign * normalize(point - p), 1.f / static_cast<float>(count), kUp});
   }
   cache.seed(photons);
+}
+
+TEST(SignificanceCache, DimPartsOfSeededCellsKnowTheirOwnLight) {
+  // Bright light from one side beside dim light from the other: what the whole knows must not
+  // outshine what a part's own photons tell.
+  std::vector<GuidePhoton> photons;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto u = [i](uint32_t d) { return uniform(7, static_cast<uint64_t>(i), d); };
+    const bool dim = i % 200 == 0;
+    photons.push_back(
+        {Vec3(0.5f * (u(0) + static_cast<float>(dim)), u(1), 0.5f), dim ? kLow : kHigh, 1, kUp});
+  }
+  SignificanceCache cache({0.6f, 8, 100'000}, kUnitBox);
+  cache.seed(photons);
+  for (const float x : {0.7f, 0.9f}) {
+    float own = 0, others = 0;
+    for (const auto& lobe : cache.find(Vec3(x, 0.4f, 0.5f), kUp).lobes)
+      (dot(lobe.axis.direction, kLow) > 0.97f ? own : others) += lobe.flux;
+    EXPECT_GT(own, 2 * others) << x;
+  }
+}
+
+TEST(SignificanceCache, HoldsMoreRecordsWhereTheyAreNarrow) {
+  // Light from many small patches, or from everywhere.
+  static float edge;
+  const auto patches = [](const Vec3& w) {
+    for (uint64_t i = 0; i < 24; ++i) {
+      const Vec3 centre = sampleUniformSphere({uniform(3, i, 0) / 2, uniform(3, i, 1)});
+      if (dot(w, centre) > edge) return 1.f;
+    }
+    return 0.f;
+  };
+  const auto count = [&](float e) {
+    edge = e;
+    SignificanceCache cache({1, 4, 1000}, kUnitBox);
+    teach(cache, kUp, patches, 6, 20'000);
+    return cache.find(Vec3(0.5f), kUp).lobes.size();
+  };
+  EXPECT_GT(count(0.995f), 4u);
+  EXPECT_LE(count(0.995f), 8u);
+  EXPECT_LE(count(-1), 4u);
 }
 
 TEST(SignificanceCache, LobesTurnTowardsWhatIsNear) {
@@ -204,11 +239,8 @@ TEST(SignificanceCache, MixtureSamplingMatchesItsPdf) {
         teach(
             cache, -n, [](const Vec3& w) { return w.x > 0.5f ? 1.f : 0.1f; }, 4);
       const auto local = cache.makeLocal();
-      class Both final : public DirectionWeight {
-       public:
-        float weight(const Vec3& wi) const override { return 0.1f + std::abs(wi.z); }
-      };
-      ASSERT_TRUE(local->moveTo({Vec3(0.4f), n, transmits}, Both()));
+      const FunctionWeight both([](const Vec3& wi) { return 0.1f + std::abs(wi.z); });
+      ASSERT_TRUE(local->moveTo({Vec3(0.4f), n, transmits}, both));
       uint64_t draws = 0;
       DirectionTest test;
       test.samples = 100'000;
@@ -245,14 +277,10 @@ TEST(SignificanceCache, WhatCellsHoldReadyIsWhatPointsWouldFind) {
 }
 
 TEST(SignificanceCache, PointsThatScatterNothingHaveNoGuide) {
-  class Black final : public DirectionWeight {
-   public:
-    float weight(const Vec3&) const override { return 0; }
-    float even() const override { return 0; }
-  };
+  const FunctionWeight black([](const Vec3&) { return 0.f; }, 0);
   SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
   teach(cache, kUp, twoPatches, 4);
-  EXPECT_FALSE(cache.makeLocal()->moveTo({Vec3(0.4f), kUp, false}, Black()));
+  EXPECT_FALSE(cache.makeLocal()->moveTo({Vec3(0.4f), kUp, false}, black));
 }
 
 TEST(SignificanceCache, IsTheSameForAnyNumberOfThreads) {
