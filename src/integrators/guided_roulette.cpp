@@ -32,7 +32,7 @@ bool GuidedRoulette::drawByThroughput(VolumePath& path) const {
 }
 
 bool GuidedRoulette::survivesByPromise(VolumePath& path, float scattered) const {
-  constexpr float kDispensable = 0.5f, kLeast = 0.3f;
+  constexpr float kDispensable = 0.9f, kLeast = 0.5f;
   const float expected = path.throughput.luminance() * scattered;
   if (!(path.promise > 0)) {
     path.promise = expected;
