@@ -25,6 +25,8 @@ class GuidedMemory final : public EstimatorMemory {
   std::vector<Turn> turns;
   std::vector<GuideSample> samples;
   GuidingGain gain;
+  double promised = 0;  ///< sum over all paths of VolumePath::promise
+  uint64_t paths = 0;
   uint64_t lookups = 0, guided = 0, drawn = 0;
 };
 

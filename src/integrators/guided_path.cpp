@@ -19,6 +19,8 @@ namespace {
 constexpr double kSamplesPerPass = 1 << 17;
 /// 16 samples a pixel: a guide is not judged by what it did while it knew less.
 constexpr int kPassesBeforeRetiring = 5;
+/// Part of the mean promise of all paths that is too little to be guided for.
+constexpr double kNegligible = 0.03;
 /// Until a first pass has shown how many a path leaves.
 constexpr double kFirstGuess = 8;
 
@@ -78,7 +80,6 @@ double secondsNow() {
 void GuideTrainer::beginPass(const Pass& pass) {
   pass_ = pass;
   tiles_.resize(pass.tiles);
-  gains_.resize(pass.tiles);
   guidance_.use = !retired_;
   guidance_.collect = !retired_ && !pass.isLast && guide_.learns();
   const double perPath = passes_ > 0 ? samplesPerPath_ : kFirstGuess;
@@ -89,9 +90,8 @@ void GuideTrainer::beginPass(const Pass& pass) {
 
 void GuideTrainer::tileDone(size_t tile, RenderState& state) {
   auto& memory = static_cast<GuidedMemory&>(*state.memory);
-  tiles_[tile] = std::move(memory.samples);
   memory.gain.finish();
-  gains_[tile] = memory.gain;
+  tiles_[tile] = {std::move(memory.samples), memory.gain, memory.promised, memory.paths};
   const std::lock_guard lock(mutex_);
   lookups_ += memory.lookups;
   guided_ += memory.guided;
@@ -102,14 +102,21 @@ void GuideTrainer::endPass() {
   ++passes_;
   if (guidance_.use) {
     gain_.fade();
-    for (const GuidingGain& tile : gains_) gain_ += tile;
+    double promised = 0, paths = 0;
+    for (const Tile& tile : tiles_) {
+      gain_ += tile.gain;
+      promised += tile.promised;
+      paths += static_cast<double>(tile.paths);
+    }
+    const double negligible = kNegligible * promised / paths;
+    guidance_.negligible = std::isfinite(negligible) ? static_cast<float>(negligible) : 0;
   }
   if (pass_.isLast) return;
   const double start = secondsNow();
   double samples = 0;
-  for (std::vector<GuideSample>& tile : tiles_) {
-    guide_.learn(tile);
-    samples += static_cast<double>(tile.size());
+  for (Tile& tile : tiles_) {
+    guide_.learn(tile.samples);
+    samples += static_cast<double>(tile.samples.size());
     tile = {};
   }
   guide_.endPass();
@@ -126,6 +133,7 @@ std::string GuideTrainer::save() const {
   out.put(samplesPerPath_);
   out.put(retired_);
   out.put(gain_);
+  out.put(guidance_.negligible);
   return out.bytes() + guide_.save();
 }
 
@@ -135,7 +143,9 @@ bool GuideTrainer::restore(std::string_view bytes) {
   in.get(samplesPerPath_);
   in.get(retired_);
   in.get(gain_);
-  constexpr size_t kOwn = sizeof passes_ + sizeof samplesPerPath_ + sizeof retired_ + sizeof gain_;
+  in.get(guidance_.negligible);
+  constexpr size_t kOwn = sizeof passes_ + sizeof samplesPerPath_ + sizeof retired_ + sizeof gain_ +
+                          sizeof guidance_.negligible;
   return in.ok() && guide_.restore(bytes.substr(kOwn));
 }
 

@@ -29,10 +29,16 @@ class GuideTrainer final : public PassObserver {
   Guidance& guidance_;
   const double pixels_;
   Pass pass_;
-  std::vector<std::vector<GuideSample>> tiles_;  ///< of the pass
-  std::vector<GuidingGain> gains_;               ///< of the pass's tiles
-  GuidingGain gain_;                             ///< of all passes, early ones less
-  double samplesPerPath_ = 0;                    ///< learned from, of a path that is learned from
+  /// What the paths of a tile have left.
+  struct Tile {
+    std::vector<GuideSample> samples;
+    GuidingGain gain;
+    double promised = 0;
+    uint64_t paths = 0;
+  };
+  std::vector<Tile> tiles_;    ///< of the pass
+  GuidingGain gain_;           ///< of all passes, early ones less
+  double samplesPerPath_ = 0;  ///< learned from, of a path that is learned from
   int passes_ = 0;
   bool retired_ = false;  ///< the guide does not pay: neither used nor taught any more
   double seconds_ = 0;

@@ -69,7 +69,11 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
   }
   settle(path);
   if (path.learns) path.memory->finish(path.radiance.sum);
-  if (path.memory && guidance_.use) path.memory->gain.add(stream.address().pixel, path.radiance);
+  if (path.memory && guidance_.use) {
+    path.memory->gain.add(stream.address().pixel, path.radiance);
+    path.memory->promised += static_cast<double>(path.promise);
+    ++path.memory->paths;
+  }
   return path.radiance.sum;
 }
 
@@ -210,8 +214,11 @@ bool VolumePathEstimator::scatter(VolumePath& path, const GuidePoint& where) con
   const LocalGuide* guide = nullptr;
   if (path.memory && guidance_.use && !specular && !path.entersBelow && !lastRay) {
     ++path.memory->lookups;
-    if (path.memory->local->moveTo(where, ScatteringPoint(path.from)))
-      guide = path.memory->local.get();
+    const LocalGuide* local = path.memory->local.get();
+    if (path.memory->local->moveTo(where, ScatteringPoint(path.from)) &&
+        (path.promise > 0 ||
+         path.throughput.luminance() * local->scattered() >= guidance_.negligible))
+      guide = local;
   }
   const DirectionMixture mixture(path.from, guide, guidance_.ownShare);
   path.remembered = false;

@@ -12,8 +12,9 @@ namespace lampyris {
 /// How a path is guided. `guide` null: not at all.
 struct Guidance {
   const Guide* guide = nullptr;
-  float ownShare = 1;  ///< of the BSDF or phase function in the mixture
-  bool use = true;     ///< false: samples are collected only
+  float ownShare = 1;    ///< of the BSDF or phase function in the mixture
+  bool use = true;       ///< false: samples are collected only
+  float negligible = 0;  ///< radiance: a guide that promises less is not worth its time
   bool collect = false;
   uint64_t stride = 1;  ///< of every so many samples of a pixel, one is learned from
 };

@@ -122,6 +122,20 @@ TEST(GuidedPath, GuidesWhereLightIsHardToFindAndKnowsIt) {
   EXPECT_EQ(scene.statistics().value("guide", "retired"), 0);
 }
 
+TEST(GuidedPath, GuidesOnlyWhereThereIsLightToSee) {
+  // What a black floor scatters, nobody sees.
+  const auto shareGuided = [](float albedo) {
+    const std::string floor =
+        "AttributeBegin\nTranslate 0 0 0.01\n" + matte(albedo) + square(2) + "AttributeEnd\n";
+    TinyScene scene(tinyScene(view(R"("guidedpath")"), floor + kUplight));
+    scene.render(32);
+    return scene.statistics().value("guide", "share of directions with a guide");
+  };
+  const double grey = shareGuided(0.7f);
+  EXPECT_GT(grey, 0.8);
+  EXPECT_LT(shareGuided(1e-3f), 0.8 * grey);
+}
+
 TEST(GuidedPath, RetiresWhereItDoesNotPay) {
   // Open and diffuse: light sampling and the BSDF find nearly all that there is to find.
   const std::string open =
