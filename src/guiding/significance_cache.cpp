@@ -47,7 +47,9 @@ void SignificanceSettings::declare(Declaration& d) {
         "Significance cache: records serve points within this many diagonals of the scene; less "
         "where many paths come by.")
       .range(1e-6, 1);
-  d.add("ncache", nearest, "Significance cache: records used at a point, at most.")
+  d.add(
+       "ncache", nearest,
+       "Significance cache: records used at a point, at most; twice as many where they are narrow.")
       .range(1, SignificanceCache::kMostNearest);
   d.add("maxrecords", maxRecords, "Significance cache: records in all, at most.").range(0, 1e8);
   d.add("seedphotons", photons,

@@ -17,7 +17,7 @@ namespace lampyris {
 
 struct SignificanceSettings {
   float radius = 0.1f;       ///< width of an undivided cell, in diagonals of the scene
-  int nearest = 8;           ///< records used at a point, at most
+  int nearest = 8;           ///< records used at a point, at most; twice as many of narrow ones
   int maxRecords = 500'000;  ///< bounds the memory
   int photons = 500'000;     ///< emitted before the image to start from, at most
   void declare(Declaration& d);

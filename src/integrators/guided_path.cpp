@@ -17,8 +17,9 @@ namespace {
 
 /// Samples that a pass may leave to be learned from: bounds memory and time.
 constexpr double kSamplesPerPass = 1 << 17;
-/// 16 samples a pixel: a guide is not judged by what it did while it knew less.
-constexpr int kPassesBeforeRetiring = 5;
+/// 16 samples a pixel: a guide is not judged by what it did while it knew less. One that starts
+/// from photons, which surfaces keep, knows most from the beginning: 4.
+constexpr int kPassesBeforeRetiring = 5, kSeededPassesBeforeRetiring = 3;
 /// Part of the mean promise of all paths that is too little to be guided for.
 constexpr double kNegligible = 0.03;
 /// Until a first pass has shown how many a path leaves.
@@ -62,7 +63,9 @@ class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> 
     guidance.ownShare = parameters_.ownShare;
     const VolumePathEstimator estimator(context.scene, parameters_, distribution_.get(), guidance);
     if (!guide) return renderPasses(context, pixels, estimator);
-    GuideTrainer trainer(*guide, guidance, pixels.area());
+    const bool isSeeded = parameters_.guide.significance.photons > 0 && context.scene.media.empty();
+    GuideTrainer trainer(*guide, guidance, pixels.area(),
+                         isSeeded ? kSeededPassesBeforeRetiring : kPassesBeforeRetiring);
     if (context.options.firstSample > 0 && !trainer.restore(context.options.learned))
       throw SceneError(location_, "the checkpoint does not hold what this guide has learned");
     const uint64_t done = renderPasses(context, pixels, estimator, &trainer);
@@ -120,7 +123,7 @@ void GuideTrainer::endPass() {
     tile = {};
   }
   guide_.endPass();
-  retired_ = retired_ || (passes_ >= kPassesBeforeRetiring && guide_.learns() && !gain_.pays());
+  retired_ = retired_ || (passes_ >= passesBeforeRetiring_ && guide_.learns() && !gain_.pays());
   const double paths = pixels_ * std::max(1., std::floor(static_cast<double>(pass_.samples) /
                                                          static_cast<double>(guidance_.stride)));
   samplesPerPath_ = samples / paths;

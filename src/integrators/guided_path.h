@@ -12,8 +12,11 @@ namespace lampyris {
 class GuideTrainer final : public PassObserver {
  public:
   /// `guidance` is what the paths see; its guide is `guide`. `pixels`: how many are rendered.
-  GuideTrainer(Guide& guide, Guidance& guidance, int64_t pixels)
-      : guide_(guide), guidance_(guidance), pixels_(static_cast<double>(pixels)) {}
+  GuideTrainer(Guide& guide, Guidance& guidance, int64_t pixels, int passesBeforeRetiring)
+      : guide_(guide),
+        guidance_(guidance),
+        pixels_(static_cast<double>(pixels)),
+        passesBeforeRetiring_(passesBeforeRetiring) {}
 
   void beginPass(const Pass& pass) override;
   void tileDone(size_t tile, RenderState& state) override;
@@ -28,6 +31,7 @@ class GuideTrainer final : public PassObserver {
   Guide& guide_;
   Guidance& guidance_;
   const double pixels_;
+  const int passesBeforeRetiring_;
   Pass pass_;
   /// What the paths of a tile have left.
   struct Tile {

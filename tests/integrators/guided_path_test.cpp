@@ -149,6 +149,8 @@ TEST(GuidedPath, RetiresWhereItDoesNotPay) {
   TinyScene bright(tinyScene(above, open));
   bright.render(128);
   EXPECT_EQ(bright.statistics().value("guide", "retired"), 1);
+  EXPECT_LT(bright.statistics().value("guide", "share of directions with a guide"), 0.06)
+      << "photons have told enough after 4 of 128 samples";
   TinyScene room(tinyScene(view(R"("guidedpath")"), kRoom));
   room.render(128);
   EXPECT_EQ(room.statistics().value("guide", "retired"), 1);
