@@ -28,7 +28,8 @@ def family(scenes, folder, wanted):
 
 def main():
     kind, args = sys.argv[1:2], sys.argv[2:]
-    if kind == ["quickstart"] and len(args) <= 1: quickstart.quickstart(args[0] if args else HERE)
+    if {"-h", "--help"} & set(sys.argv[1:]): print(__doc__)
+    elif kind == ["quickstart"] and len(args) <= 1: quickstart.quickstart(args[0] if args else HERE)
     elif kind == ["room"] and 1 <= len(args) <= 2: benchmarks.room(args[0], int(args[1]) if args[1:] else 1494)
     elif kind == ["points"] and 1 <= len(args) <= 2: benchmarks.points(args[0], int(args[1]) if args[1:] else 1600000)
     elif kind == ["thesis"] and args: family(thesis, args[0], args[1:])
