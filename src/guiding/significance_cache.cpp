@@ -120,7 +120,9 @@ void SignificanceCache::learn(std::span<const GuideSample> samples) {
   }
 }
 
-void SignificanceCache::seed(std::span<const GuidePhoton> photons) {
+namespace {
+
+std::vector<GuideSample> samplesOf(std::span<const GuidePhoton> photons) {
   std::vector<GuideSample> samples;
   samples.reserve(photons.size());
   for (const GuidePhoton& p : photons) {
@@ -129,7 +131,13 @@ void SignificanceCache::seed(std::span<const GuidePhoton> photons) {
     s.radiance = p.power / std::max(kGrazing, absDot(p.n, p.wi));
     if (std::isfinite(s.radiance)) samples.push_back(s);
   }
-  learn(samples);
+  return samples;
+}
+
+}  // namespace
+
+void SignificanceCache::seed(std::span<const GuidePhoton> photons) {
+  learn(samplesOf(photons));
   learned_ = 0;
   const size_t quota =
       trees_.empty() ? 0 : static_cast<size_t>(settings_.maxRecords) / 2 / trees_.size();

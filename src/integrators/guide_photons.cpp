@@ -153,9 +153,11 @@ std::vector<GuidePhoton> traceGuidePhotons(const Scene& scene, int count, int ma
     });
 
   std::vector<GuidePhoton> all;
-  for (const auto* stream : {&even, &aimed})
-    for (const Found& part : *stream)
+  for (auto* stream : {&even, &aimed})
+    for (Found& part : *stream) {
       all.insert(all.end(), part.photons.begin(), part.photons.end());
+      part = {};
+    }
   return all;
 }
 

@@ -44,8 +44,15 @@ class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> 
  public:
   using PixelIntegrator::PixelIntegrator;
   bool rendersMedia() const override { return true; }
-  /// Of what a pass leaves to be learned from, twice while it is sorted.
-  double memory(const Film&) const override { return 2 * sizeof(GuideSample) * kSamplesPerPass; }
+  /// Of what a pass leaves to be learned from, twice while it is sorted, or of the photons before.
+  double memory(const Film& film) const override {
+    // In closed rooms a photon is kept at three of its bounces, as itself and twice while sorted.
+    constexpr double kEach = 3 * (sizeof(GuidePhoton) + 2 * sizeof(GuideSample));
+    // One for 16 paths, of usually 64 a pixel.
+    const double photons = std::min(static_cast<double>(parameters_.guide.significance.photons),
+                                    4. * static_cast<double>(film.bounds().area()));
+    return std::max(2 * sizeof(GuideSample) * kSamplesPerPass, kEach * photons);
+  }
   std::string_view partsDiffer() const override {
     return "each part learns from its own samples alone";
   }
