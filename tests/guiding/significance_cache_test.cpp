@@ -58,6 +58,21 @@ float twoPatches(const Vec3& w) {
   return (dot(w, kLow) > 0.98f ? 30.f : 0.f) + (dot(w, kHigh) > 0.9f ? 10.f : 0.f);
 }
 
+/// Empty if the guide's directions are distributed as it says.
+std::string compareDrawsWithPdf(const LocalGuide& local) {
+  uint64_t draws = 0;
+  DirectionTest test;
+  test.samples = 100'000;
+  test.subdivisions = 24;
+  test.sample = [&](const Vec2& u, float uc, Vec3& w) {
+    NumberSequence more(++draws);
+    w = local.sample(uc, u, more);
+    return true;
+  };
+  test.pdf = [&](const Vec3& w) { return static_cast<double>(local.pdf(w)); };
+  return directionChiSquareTest(test);
+}
+
 TEST(SignificanceCache, FindsWhatItWasTaught) {
   SignificanceCache cache({0.6f, 8, 1000}, kUnitBox);
   teach(cache, kUp, twoPatches, 6);
@@ -168,17 +183,7 @@ TEST(SignificanceCache, TurnedLobesAreSampledByTheirPdf) {
   const auto local = cache.makeLocal();
   for (const bool says : {false, true}) {
     ASSERT_TRUE(local->moveTo({Vec3(0.9f, 0.3f, 0.5f), kUp, false}, Even(kUp, says)));
-    uint64_t draws = 0;
-    DirectionTest test;
-    test.samples = 100'000;
-    test.subdivisions = 24;
-    test.sample = [&](const Vec2& u, float uc, Vec3& w) {
-      NumberSequence more(++draws);
-      w = local->sample(uc, u, more);
-      return true;
-    };
-    test.pdf = [&](const Vec3& w) { return static_cast<double>(local->pdf(w)); };
-    EXPECT_EQ(directionChiSquareTest(test), "") << says;
+    EXPECT_EQ(compareDrawsWithPdf(*local), "") << says;
   }
 }
 
@@ -241,17 +246,7 @@ TEST(SignificanceCache, MixtureSamplingMatchesItsPdf) {
       const auto local = cache.makeLocal();
       const FunctionWeight both([](const Vec3& wi) { return 0.1f + std::abs(wi.z); });
       ASSERT_TRUE(local->moveTo({Vec3(0.4f), n, transmits}, both));
-      uint64_t draws = 0;
-      DirectionTest test;
-      test.samples = 100'000;
-      test.subdivisions = 24;
-      test.sample = [&](const Vec2& u, float uc, Vec3& w) {
-        NumberSequence more(++draws);
-        w = local->sample(uc, u, more);
-        return true;
-      };
-      test.pdf = [&](const Vec3& w) { return static_cast<double>(local->pdf(w)); };
-      EXPECT_EQ(directionChiSquareTest(test), "") << volume << transmits;
+      EXPECT_EQ(compareDrawsWithPdf(*local), "") << volume << transmits;
     }
 }
 
