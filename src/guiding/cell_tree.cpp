@@ -51,7 +51,6 @@ struct CellTree::SeededCell {
   size_t node = 0;
   int depth = 0;
   std::vector<PlacedSample> photons;
-  double power = 0;  ///< of the photons, per cosine
 };
 
 /// Level by level, so that parts start from what the whole has learned.
@@ -74,12 +73,14 @@ void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota
     cell.endPass();
     if (at.photons.size() < kDivideSeedAt || at.depth >= CellPlace::kDeepest) continue;
     std::array<SeededCell, 8> parts;
+    std::array<double, 8> powers{};  // of the parts' photons, per cosine
     double power = 0;
     for (const PlacedSample& s : at.photons) {
-      SeededCell& part = parts[s.place.child(at.depth)];
+      const size_t child = s.place.child(at.depth);
+      SeededCell& part = parts[child];
       part.depth = at.depth + 1;
       part.photons.push_back(s);
-      part.power += static_cast<double>(s.sample.radiance);
+      powers[child] += static_cast<double>(s.sample.radiance);
       power += static_cast<double>(s.sample.radiance);
     }
     for (size_t child = 0; child < 8; ++child) {
@@ -88,7 +89,7 @@ void CellTree::seed(std::vector<PlacedSample>& photons, float size, size_t quota
       inserted_ += copied;
       nodes_[at.node].divided = true;
       parts[child].node = addNode(RecordCell(nodes_[at.node].cell, kPartOfSeededParent,
-                                             kPartsOnSurface * parts[child].power / power));
+                                             kPartsOnSurface * powers[child] / power));
       nodes_[at.node].children[child] = static_cast<int32_t>(parts[child].node);
       cells.push_back(std::move(parts[child]));
     }

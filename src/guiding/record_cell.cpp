@@ -24,7 +24,6 @@ constexpr float kAlike = 0.8f;
 /// Bounds sample weights, so that no sum overflows: far beyond radiances that images hold.
 constexpr double kLargestWeight = 1e60;
 
-constexpr size_t kMostRecords = 32;
 /// Lobes are narrow if all together cover less than this part of the hemisphere.
 constexpr float kNarrow = 0.3f;
 /// A lobe of fewer samples may look narrow by chance.

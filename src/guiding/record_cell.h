@@ -15,6 +15,9 @@ namespace lampyris {
 /// that early guesses are forgotten; unless they are known to be good.
 class RecordCell {
  public:
+  /// In all, whatever their room.
+  static constexpr size_t kMostRecords = 32;
+
   /// `room`: how many records it may hold; twice as many where they are narrow.
   explicit RecordCell(int room);
   /// A part of `parent`, from whose records it starts as if it had counted `share` of the samples.

@@ -27,7 +27,7 @@ struct SignificanceSettings {
 /// media; a look-up reads one cell. Cells that many paths visit are divided.
 class SignificanceCache final : public Guide {
  public:
-  static constexpr int kMostNearest = 32;
+  static constexpr size_t kMostNearest = RecordCell::kMostRecords;
 
   /// A record as look-ups see it.
   struct Lobe {

@@ -214,8 +214,8 @@ bool VolumePathEstimator::scatter(VolumePath& path, const GuidePoint& where) con
   const LocalGuide* guide = nullptr;
   if (path.memory && guidance_.use && !specular && !path.entersBelow && !lastRay) {
     ++path.memory->lookups;
-    const LocalGuide* local = path.memory->local.get();
-    if (path.memory->local->moveTo(where, ScatteringPoint(path.from)) &&
+    LocalGuide* const local = path.memory->local.get();
+    if (local->moveTo(where, ScatteringPoint(path.from)) &&
         (path.promise > 0 ||
          path.throughput.luminance() * local->scattered() >= guidance_.negligible))
       guide = local;
