@@ -15,8 +15,6 @@ namespace lampyris {
 
 namespace {
 
-/// Samples that a pass may leave to be learned from: bounds memory and time.
-constexpr double kSamplesPerPass = 1 << 17;
 /// 16 samples a pixel: a guide is not judged by what it did while it knew less. One that starts
 /// from photons, which surfaces keep, knows most from the beginning: 4.
 constexpr int kPassesBeforeRetiring = 5, kSeededPassesBeforeRetiring = 3;
@@ -51,7 +49,7 @@ class GuidedPathIntegrator final : public PixelIntegrator<GuidedPathParameters> 
     // One for 16 paths, of usually 64 a pixel.
     const double photons = std::min(static_cast<double>(parameters_.guide.significance.photons),
                                     4. * static_cast<double>(film.bounds().area()));
-    return std::max(2 * sizeof(GuideSample) * kSamplesPerPass, kEach * photons);
+    return std::max(2 * sizeof(GuideSample) * GuideTrainer::kSamplesPerPass, kEach * photons);
   }
   std::string_view partsDiffer() const override {
     return "each part learns from its own samples alone";
@@ -131,8 +129,8 @@ void GuideTrainer::endPass() {
   }
   guide_.endPass();
   retired_ = retired_ || (passes_ >= passesBeforeRetiring_ && guide_.learns() && !gain_.pays());
-  const double paths = pixels_ * std::max(1., std::floor(static_cast<double>(pass_.samples) /
-                                                         static_cast<double>(guidance_.stride)));
+  const double paths =
+      pixels_ * static_cast<double>(pass_.samples) / static_cast<double>(guidance_.stride);
   samplesPerPath_ = samples / paths;
   seconds_ += secondsNow() - start;
 }

@@ -11,6 +11,9 @@ namespace lampyris {
 /// Feeds a guide with the samples of each pass, in the order of the tiles.
 class GuideTrainer final : public PassObserver {
  public:
+  /// That a pass leaves to be learned from, about and at most: bounds memory and time.
+  static constexpr double kSamplesPerPass = 1 << 18;
+
   /// `guidance` is what the paths see; its guide is `guide`. `pixels`: how many are rendered.
   GuideTrainer(Guide& guide, Guidance& guidance, int64_t pixels, int passesBeforeRetiring)
       : guide_(guide),

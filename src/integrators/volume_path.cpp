@@ -7,6 +7,7 @@
 // other one has hit.
 #include "integrators/volume_path.h"
 
+#include "core/hash.h"
 #include "integrators/aov_surface.h"
 #include "integrators/direction_mixture.h"
 #include "integrators/light_connection.h"
@@ -22,6 +23,13 @@ namespace {
 
 /// Vertices of a path that are learned from, at most.
 constexpr size_t kMaxTurns = 64;
+
+/// Chooses one of `stride` samples, scattered over pixels and indices alike.
+bool isChosen(const SampleAddress& a, uint64_t stride) {
+  if (stride == 1) return true;
+  const uint64_t x = static_cast<uint32_t>(a.pixel.x), y = static_cast<uint32_t>(a.pixel.y);
+  return hashCombine(x << 32 | y, a.index) % stride == 0;
+}
 
 }  // namespace
 
@@ -44,7 +52,7 @@ Rgb VolumePathEstimator::radiance(const CameraRay& camera, SampleStream& stream,
                                   RenderState& state) const {
   VolumePath path(camera, scene_.cameraMedium, stream, state);
   path.memory = static_cast<GuidedMemory*>(state.memory.get());
-  path.learns = path.memory && guidance_.collect && stream.address().index % guidance_.stride == 0;
+  path.learns = path.memory && guidance_.collect && isChosen(stream.address(), guidance_.stride);
   if (path.memory || scattersBelow_ || !scene_.media.empty())
     path.numbers = numbersBeyond(stream, kFirstPathDimension + VolumePath::kSeedOffset);
   while (true) {

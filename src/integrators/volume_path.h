@@ -16,7 +16,7 @@ struct Guidance {
   bool use = true;       ///< false: samples are collected only
   float negligible = 0;  ///< radiance: a guide that promises less is not worth its time
   bool collect = false;
-  uint64_t stride = 1;  ///< of every so many samples of a pixel, one is learned from
+  uint64_t stride = 1;  ///< of so many samples, one is learned from
 };
 
 class VolumePathEstimator final : public RadianceEstimator {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "integrators/guided_path.h"
+
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -164,6 +166,22 @@ TEST(GuidedPath, MemoryIsBounded) {
   TinyScene none(tinyScene(view(R"("guidedpath" "integer maxrecords" 0)"), kRoom));
   none.render(8);
   EXPECT_EQ(none.statistics().value("guide", "records"), 0);
+}
+
+TEST(GuidedPath, LearnsAsMuchFromEveryPassOfALargeImage) {
+  const auto learned = [](uint64_t samples) {
+    TinyScene scene(tinyScene(view(R"("guidedpath" "integer maxdepth" 4)", 400), kUplight));
+    scene.render(samples);
+    return scene.statistics().value("guide", "samples learned from");
+  };
+  double before = learned(1);
+  EXPECT_EQ(before, 0) << "nobody asks what the last pass has found";
+  for (const uint64_t samples : {2, 4, 8}) {  // a pass more each
+    const double all = learned(samples);
+    EXPECT_LT(all - before, 1.1 * GuideTrainer::kSamplesPerPass) << samples;
+    EXPECT_GT(all - before, 0.2 * GuideTrainer::kSamplesPerPass) << samples;
+    before = all;
+  }
 }
 
 TEST(GuidedPath, ScaleDoesNotMatter) {
