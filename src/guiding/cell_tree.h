@@ -28,6 +28,8 @@ class CellPlace {
   }
   /// 0 ≤ `depth` < kDeepest; from 0 to 7.
   size_t child(int depth) const { return bits_ >> 3 * (kDeepest - 1 - depth) & 7; }
+  /// Of the child at an even depth, which of its children: from 0 to 63, the child's number first.
+  size_t grandchild(int depth) const { return bits_ >> 3 * (kDeepest - 2 - depth) & 63; }
 
  private:
   uint32_t bits_ = 0;

@@ -7,8 +7,8 @@
 // 12. The records of a cell of the hash are used together, in place of the N_cache nearest ones: to
 // search those took five times as long as everything else at a vertex, and single lobes near to
 // each other cover a hemisphere with gaps. Cells are divided where there are many samples. Cost a
-// look-up: a probe of the hash, up to six steps down a tree, and where the BSDF varies, it for each
-// lobe.
+// look-up: a probe of the hash, up to three steps down a tree, and where the BSDF varies, it for
+// each lobe.
 #include "guiding/significance_cache.h"
 
 #include <algorithm>
@@ -86,20 +86,18 @@ SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) c
   const Place at = placeOf(p, n);
   const size_t mask = slots_.size() - 1;
   size_t slot = slotOf(at.key);
-  while (slots_[slot].root != 0 && slots_[slot].key != at.key) slot = (slot + 1) & mask;
-  if (slots_[slot].root == 0) return {};
-  const Node* node = &nodes_[slots_[slot].root - 1];
-  for (int depth = 0; depth < CellPlace::kDeepest; ++depth) {
-    const int32_t child = node->children[at.place.child(depth)];
-    if (child == CellTree::kNoChild) break;
-    node = &nodes_[static_cast<size_t>(child)];
-  }
-  return {{lobes_.data() + node->first, node->count},
-          node->n,
-          node->even,
-          blocks_.data() + node->firstBlock,
-          static_cast<float>(node->lightWorth) * (1 / 255.f),
-          node->turn};
+  while (slots_[slot].root != kNothing && slots_[slot].key != at.key) slot = (slot + 1) & mask;
+  Entry entry = slots_[slot].root;
+  if (entry == kNothing) return {};
+  for (int depth = 0; entry & kTable; depth += 2)
+    entry = tables_[entry & ~kTable][at.place.grandchild(depth)];
+  const Cell& cell = cells_[entry];
+  return {{lobes_.data() + cell.first, cell.count},
+          cell.n,
+          cell.even,
+          blocks_.data() + cell.firstBlock,
+          static_cast<float>(cell.lightWorth) * (1 / 255.f),
+          cell.turn};
 }
 
 void SignificanceCache::learn(std::span<const GuideSample> samples) {
@@ -167,41 +165,64 @@ void SignificanceCache::endPass() {
 }
 
 void SignificanceCache::freeze() {
-  nodes_.clear();
+  tables_.clear();
+  cells_.clear();
   lobes_.clear();
   blocks_.clear();
   slots_.assign(std::bit_ceil(2 * trees_.size() + 1), {});
   const size_t mask = slots_.size() - 1;
   for (size_t t = 0; t < trees_.size(); ++t) {
-    const auto first = static_cast<int32_t>(nodes_.size());
     size_t slot = slotOf(keys_[t]);
-    while (slots_[slot].root != 0) slot = (slot + 1) & mask;
-    slots_[slot] = {keys_[t], static_cast<uint32_t>(first) + 1};
-    for (const CellTree::Node& n : trees_[t].nodes()) {
-      Node flat{n.children, static_cast<uint32_t>(lobes_.size()),
-                static_cast<uint32_t>(blocks_.size()), n.cell.normal()};
-      for (int32_t& child : flat.children)
-        if (child != CellTree::kNoChild) child += first;
-      for (const SignificanceRecord& r : n.cell.records()) {
-        lobes_.push_back({r.axis(), r.flux(), r.level(), inverseAbove(r, flat.n)});
-        flat.turn = flat.turn || r.axis().turn != 0;
-      }
-      flat.count = static_cast<uint8_t>(lobes_.size() - flat.first);
-      freezeEven(flat);
-      flat.lightWorth = static_cast<uint8_t>(std::lround(n.cell.lightWorth() * 255));
-      nodes_.push_back(flat);
-    }
+    while (slots_[slot].root != kNothing) slot = (slot + 1) & mask;
+    const auto first = static_cast<Entry>(cells_.size());
+    for (const CellTree::Node& n : trees_[t].nodes()) freeze(n.cell);
+    slots_[slot] = {keys_[t], freeze(trees_[t], 0, first)};
   }
 }
 
-void SignificanceCache::freezeEven(Node& node) {
-  blocks_.resize(blocks_.size() + LobeSide::blocksOf(node.count));
-  for (size_t i = node.first; i < lobes_.size(); ++i) {
+SignificanceCache::Entry SignificanceCache::freeze(const CellTree& tree, size_t node, Entry first) {
+  const auto childOf = [&tree](size_t parent, size_t child) {
+    return tree.nodes()[parent].children[child];
+  };
+  const auto isChild = [](int32_t child) { return child != CellTree::kNoChild; };
+  const Entry own = first + static_cast<Entry>(node);
+  if (std::ranges::none_of(tree.nodes()[node].children, isChild)) return own;
+  const size_t table = tables_.size();
+  tables_.emplace_back();
+  for (size_t i = 0; i < std::tuple_size_v<Table>; ++i) {
+    Entry entry = own;
+    if (const int32_t child = childOf(node, i / 8); isChild(child)) {
+      const int32_t grandchild = childOf(static_cast<size_t>(child), i % 8);
+      entry = isChild(grandchild) ? freeze(tree, static_cast<size_t>(grandchild), first)
+                                  : first + static_cast<Entry>(child);
+    }
+    tables_[table][i] = entry;
+  }
+  return kTable | static_cast<Entry>(table);
+}
+
+void SignificanceCache::freeze(const RecordCell& cell) {
+  Cell& flat = cells_.emplace_back();
+  flat.first = static_cast<uint32_t>(lobes_.size());
+  flat.firstBlock = static_cast<uint32_t>(blocks_.size());
+  flat.n = cell.normal();
+  for (const SignificanceRecord& r : cell.records()) {
+    lobes_.push_back({r.axis(), r.flux(), r.level(), inverseAbove(r, flat.n)});
+    flat.turn = flat.turn || r.axis().turn != 0;
+  }
+  flat.count = static_cast<uint8_t>(cell.records().size());
+  freezeEven(flat);
+  flat.lightWorth = static_cast<uint8_t>(std::lround(cell.lightWorth() * 255));
+}
+
+void SignificanceCache::freezeEven(Cell& cell) {
+  blocks_.resize(blocks_.size() + LobeSide::blocksOf(cell.count));
+  for (size_t i = cell.first; i < lobes_.size(); ++i) {
     const Lobe& r = lobes_[i];
     const Vec3& axis = r.axis.direction;
-    const float w = (node.n == Vec3(0) ? 1.f : dot(axis, node.n)) * r.flux;
+    const float w = (cell.n == Vec3(0) ? 1.f : dot(axis, cell.n)) * r.flux;
     if (w > 0 && std::isfinite(w))
-      node.even.add(&blocks_[node.firstBlock], axis, r.level, w, r.inverse);
+      cell.even.add(&blocks_[cell.firstBlock], axis, r.level, w, r.inverse);
   }
 }
 
@@ -240,9 +261,9 @@ std::vector<LearnedDirection> SignificanceCache::directions() const {
 }
 
 size_t SignificanceCache::memory() const {
-  size_t bytes = slots_.capacity() * sizeof(Slot) + nodes_.capacity() * sizeof(Node) +
-                 lobes_.capacity() * sizeof(Lobe) + blocks_.capacity() * sizeof(LobeBlock) +
-                 treeAt_.size() * 32;
+  size_t bytes = slots_.capacity() * sizeof(Slot) + tables_.capacity() * sizeof(Table) +
+                 cells_.capacity() * sizeof(Cell) + lobes_.capacity() * sizeof(Lobe) +
+                 blocks_.capacity() * sizeof(LobeBlock) + treeAt_.size() * 32;
   for (const CellTree& t : trees_) bytes += t.memory();
   return bytes;
 }
@@ -252,7 +273,7 @@ void SignificanceCache::report(Statistics& statistics) const {
     statistics.set("guide", name, static_cast<double>(value));
   };
   set("records", recordCount());
-  set("cells", nodes_.size());
+  set("cells", cells_.size());
   set("samples learned from", learned_);
   set("memory (bytes)", memory());
 }

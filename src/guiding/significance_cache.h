@@ -67,21 +67,25 @@ class SignificanceCache final : public Guide {
   const std::vector<CellTree>& trees() const { return trees_; }
 
  private:
-  /// Of a tree, flat for look-ups.
-  struct alignas(64) Node {
-    CellTree::Children children;  ///< indices in nodes_
-    uint32_t first = 0;           ///< of lobes_
-    uint32_t firstBlock = 0;      ///< of blocks_
+  /// A cell, flat for look-ups.
+  struct alignas(32) Cell {
+    uint32_t first = 0;       ///< of lobes_
+    uint32_t firstBlock = 0;  ///< of blocks_
     Vec3 n{0};
     LobeSide even{};
     uint8_t count = 0;         ///< of lobes_
     uint8_t lightWorth = 255;  ///< in 1/255
     bool turn = false;         ///< see Lobes
   };
-  static_assert(sizeof(Node) == 64);
+  static_assert(sizeof(Cell) == 32);
+  /// Of a point in a tree or in a part of it: index in cells_, or kTable and index in tables_.
+  using Entry = uint32_t;
+  static constexpr Entry kTable = 1u << 31, kNothing = ~Entry{0};
+  /// Two levels of a tree: by CellPlace::grandchild().
+  using Table = std::array<Entry, 64>;
   struct Slot {
     uint64_t key = 0;
-    uint32_t root = 0;  ///< index in nodes_ + 1; 0: empty
+    Entry root = kNothing;
   };
   struct Place {
     uint64_t key = 0;  ///< of the undivided cell: its numbers and which way it faces, exactly
@@ -90,8 +94,11 @@ class SignificanceCache final : public Guide {
   Place placeOf(const Vec3& p, const Vec3& n) const;
   size_t slotOf(uint64_t key) const { return mixBits(key) & (slots_.size() - 1); }
   void freeze();
-  /// Makes Lobes::even of the node's lobes, the last ones.
-  void freezeEven(Node& node);
+  /// Of a node of a tree whose cells start at `first`.
+  Entry freeze(const CellTree& tree, size_t node, Entry first);
+  void freeze(const RecordCell& cell);
+  /// Makes Lobes::even of the cell's lobes, the last ones.
+  void freezeEven(Cell& cell);
 
   SignificanceSettings settings_;
   Vec3 origin_;
@@ -102,7 +109,8 @@ class SignificanceCache final : public Guide {
   std::vector<std::vector<PlacedSample>> waiting_;  ///< per tree: learned from at the pass's end
 
   std::vector<Slot> slots_;  ///< a power of two, at most half full
-  std::vector<Node> nodes_;
+  std::vector<Table> tables_;
+  std::vector<Cell> cells_;
   std::vector<Lobe> lobes_;
   std::vector<LobeBlock> blocks_;
   uint64_t learned_ = 0;
