@@ -3,11 +3,17 @@
 
 #include <algorithm>
 
+#include "core/prefetch.h"
+
 namespace lampyris {
 
 void LobeMixture::Side::take(const LobeSide& side, const LobeBlock* of) {
   static_cast<LobeSide&>(*this) = side;
   blocks = of;
+  for (size_t i = 0; i < blocksOf(count); ++i) {
+    prefetchLine(&blocks[i]);
+    prefetchLine(&blocks[i].weight);
+  }
 }
 
 void LobeMixture::Side::fill(const SignificanceCache::Lobes& cell, bool samePlane, const Vec3& p,
