@@ -2,9 +2,7 @@
 /// An octree of record cells: fine where many paths come by.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <glm/gtc/bitfield.hpp>
 #include <vector>
 
 #include "guiding/record_cell.h"
@@ -17,21 +15,27 @@ class CellPlace {
   /// How often a cell is halved at most.
   static constexpr int kDeepest = 6;
 
+  /// In the smallest cells.
+  static constexpr int kCellsAcross = 1 << kDeepest;
+
   CellPlace() = default;
-  /// `at`: in the undivided cell, in its widths, from 0 to 1.
-  explicit CellPlace(const Vec3& at) {
-    constexpr float kCells = 1 << kDeepest;
-    const auto part = [](float x) {
-      return static_cast<uint32_t>(std::clamp(x * kCells, 0.f, kCells - 1));
-    };
-    bits_ = static_cast<uint32_t>(glm::bitfieldInterleave(part(at.x), part(at.y), part(at.z)));
-  }
+  /// In the undivided cell, in smallest cells: from 0 to kCellsAcross - 1.
+  CellPlace(uint32_t x, uint32_t y, uint32_t z)
+      : bits_(spread(x) | spread(y) << 1 | spread(z) << 2) {}
   /// 0 ≤ `depth` < kDeepest; from 0 to 7.
   size_t child(int depth) const { return bits_ >> 3 * (kDeepest - 1 - depth) & 7; }
   /// Of the child at an even depth, which of its children: from 0 to 63, the child's number first.
   size_t grandchild(int depth) const { return bits_ >> 3 * (kDeepest - 2 - depth) & 63; }
 
  private:
+  /// Three places for each bit.
+  static uint32_t spread(uint32_t x) {
+    static_assert(kDeepest <= 8);
+    x = (x | x << 8) & 0x00f00f;
+    x = (x | x << 4) & 0x0c30c3;
+    return (x | x << 2) & 0x249249;
+  }
+
   uint32_t bits_ = 0;
 };
 

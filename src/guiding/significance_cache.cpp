@@ -71,14 +71,20 @@ std::unique_ptr<LocalGuide> SignificanceCache::makeLocal() const {
 SignificanceCache::Place SignificanceCache::placeOf(const Vec3& p, const Vec3& n) const {
   // Far beyond, in endless media, all is one cell. Shifted by a third of a cell, so that walls on
   // the scene's bounds do not lie on the cells' faces.
-  constexpr int kBits = 20;
-  constexpr float kFarthest = (1 << (kBits - 1)) - 1;
+  constexpr int kBits = 20, kFarthest = (1 << (kBits - 1)) - 1;
+  constexpr int kAcross = CellPlace::kCellsAcross;
   const Vec3 x = (p - origin_) * invSize_ + 1 / 3.f;
-  const Vec3 cell = glm::floor(glm::clamp(x, -kFarthest, kFarthest));
+  std::array<uint32_t, 3> part;
   uint64_t key = facing(n);
-  for (int axis = 0; axis < 3; ++axis)
-    key = key << kBits | static_cast<uint64_t>(static_cast<int64_t>(cell[axis] + kFarthest));
-  return {key, CellPlace(x - cell)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inRange =
+        std::clamp(x[axis], -static_cast<float>(kFarthest), static_cast<float>(kFarthest));
+    const auto smallest = static_cast<uint32_t>(static_cast<int>(std::floor(inRange * kAcross)) +
+                                                kFarthest * kAcross);
+    part[static_cast<size_t>(axis)] = smallest % kAcross;
+    key = key << kBits | smallest / kAcross;
+  }
+  return {key, CellPlace(part[0], part[1], part[2])};
 }
 
 SignificanceCache::Lobes SignificanceCache::find(const Vec3& p, const Vec3& n) const {
