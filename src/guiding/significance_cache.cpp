@@ -251,8 +251,9 @@ bool SignificanceCache::restore(std::string_view bytes) {
     trees_.emplace_back(settings_.nearest).restore(in);
   }
   waiting_.assign(trees_.size(), {});
+  if (!in.ok() || !in.atEnd()) return false;
   freeze();
-  return in.ok() && in.atEnd();
+  return true;
 }
 
 std::vector<LearnedDirection> SignificanceCache::directions() const {
